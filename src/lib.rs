@@ -1,0 +1,1 @@
+//! shadetree: weaves abstract shade trees into WGSL.
