@@ -1,0 +1,7 @@
+//! Port types, values, and the one table of conversions with its shortest-path search.
+
+mod meaning;
+mod value;
+
+pub use meaning::{Encoding, Frame, Kind, Length, Meaning, Quantity, Shape, Type};
+pub use value::Value;
