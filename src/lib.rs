@@ -1,5 +1,9 @@
 //! shadetree: weaves abstract shade trees into WGSL.
 
+pub mod compile;
 pub mod diagnostic;
-pub mod semantic;
+pub mod module;
 pub mod node;
+pub mod plan;
+pub mod scene;
+pub mod semantic;

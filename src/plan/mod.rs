@@ -1,0 +1,81 @@
+//! What must be rendered before a module can run: the maps that its shadow nodes demand, as chains of fixed passes.
+//!
+//! A plan names no shadow method. Two maps are the same map when light and passes are equal, also across modules. (interface)
+
+use std::collections::BTreeMap;
+
+/// Everything that a module needs besides its own bindings.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Plan {
+    /// Lights in use, sorted by name.
+    pub lights: Vec<Light>,
+    /// Maps in use, sorted by light and then by first demand.
+    pub maps: Vec<Map>,
+}
+
+/// A light and the projection that its maps are made in.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Light {
+    /// Name of the light node, with its graph's name before a `/` if there are several graphs.
+    pub name: String,
+    /// Its projection, if it declares one.
+    pub space: Option<Space>,
+}
+
+/// A projection by name, and the parameters that define it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Space {
+    /// `perspective`: position (m, world), direction (along the axis, any length), outer_angle (radians, half the
+    /// opening), near (m), range (m). `orthographic`: direction, center (m, world), radius (m; 0 = fit the scene).
+    pub projection: String,
+    /// Path of the parameter for each of those, in that order.
+    pub inputs: Vec<String>,
+}
+
+/// A texture in a light's space.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Map {
+    /// The light.
+    pub light: String,
+    /// Passes in order: one that draws the casters, then image and mip passes.
+    pub passes: Vec<Pass>,
+    /// Whether any sampler of it interpolates (then the format must be filterable).
+    pub filtered: bool,
+}
+
+impl Map {
+    /// Side in texels: the `size` option of the first pass that has one.
+    pub fn size(&self) -> u32 {
+        self.passes.iter().find_map(|p| p.choices.get("size")?.parse().ok()).unwrap_or(1024)
+    }
+}
+
+/// One fixed pass with its options chosen.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Pass {
+    /// File stem in `shaders/`.
+    pub name: String,
+    /// What the pass does.
+    pub kind: PassKind,
+    /// Options, all of them.
+    pub choices: BTreeMap<String, String>,
+    /// Complete WGSL with entry points `vs_main` and `fs_main`.
+    pub wgsl: String,
+    /// Target formats, best first (`rg32float`, ...; `depth32float` alone means a depth target and no colour).
+    pub targets: Vec<String>,
+    /// Clear value per channel.
+    pub clear: Vec<f64>,
+}
+
+/// How a pass runs.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum PassKind {
+    /// Draws the casters from the light. Group 0 binding 0: `LightSpace`; group 1 binding 0: the object block; vertex
+    /// location 0: object-space position. A colour target gets a depth buffer beside it.
+    Geometry,
+    /// A full-screen triangle that reads group 0 binding 0 (`texture_2d<f32>`) and writes a texture of the same size
+    /// and format.
+    Image,
+    /// As an image pass, but from each mip level of the same texture to the next.
+    Mip,
+}
