@@ -9,7 +9,7 @@
 /// point (point world; = @position_world): The point whose facets are wanted.
 /// to_camera (direction world unit; = @to_camera): Towards the eye; also the answer where a facet has no area.
 /// -> normal (normal world unit): The facet's normal, on the camera's side.
-fn geometric_normal(point: vec3f, to_camera: vec3f) -> vec3f {
+fn facet_normal(point: vec3f, to_camera: vec3f) -> vec3f {
     // Unit edges, because the product of two short ones would leave the range of f32 in close views.
     let facet = cross(unit_or_zero(dpdx(point)), unit_or_zero(dpdy(point)));
     let normal = unit_or_zero(select(facet, -facet, dot(facet, to_camera) < 0.0));
