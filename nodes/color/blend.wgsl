@@ -1,8 +1,8 @@
 //! label: Blend
 //! category: color
 //! synonyms: blend mode, layer, mixrgb, overlay, screen, multiply, dodge, burn, soft light, composite
-//! Lays one colour over another by a blend mode (W3C Compositing and Blending Level 1, section 10.1).
-//! The formulas are used on the values as they come; most modes are made for components within 0..1.
+//! Lays one colour over another by a blend mode (W3C Compositing and Blending Level 1, section 10.1; add and subtract are
+//! the plain sums). The formulas are used on the values as they come; most modes are made for components within 0..1.
 //! option mode: normal | add | subtract | multiply | screen | overlay | darken | lighten | color_dodge | color_burn | soft_light | hard_light | difference | exclusion = multiply - What the layer does to the base.
 
 /// base (color): The colour below.

@@ -2,8 +2,8 @@
 //! category: geometry
 //! synonyms: fresnel, layer weight, rim, edge, facing, view angle, falloff, incidence, fresnel effect
 //! How much the surface turns away from the eye: 0 or little where it faces it, 1 at the silhouette.
-//! Both sides of the surface count alike. The curve of a dielectric is the exact mean over both polarisations (Cook and
-//! Torrance 1982, section 3, for no absorption); Schlick's is the fifth-power fit to it (Schlick 1994, equation 15).
+//! Both sides of the surface count alike. The curve of a dielectric is the exact mean over both polarisations, for a
+//! body that absorbs nothing (in the form of Cook and Torrance 1982); Schlick's is the fifth-power fit to it (1994).
 //! option curve: facing | dielectric | schlick = facing - A plain bendable falloff, or the share of light that a clear body reflects.
 
 /// normal (normal world unit; = @normal_world): The normal that is looked at.

@@ -5,7 +5,7 @@
 //! Whether the camera sees the front of the surface; link it to Choose to give the back another look.
 
 /// front (bool; = @front_facing; hidden): What the rasterizer says.
-/// -> front_facing (bool): True where the triangle's counter-clockwise side is seen.
+/// -> front_facing (bool): True where the outer side of the surface is seen.
 fn front_facing(front: bool) -> bool {
     return front;
 }

@@ -1,7 +1,7 @@
 //! label: Vertex Color
 //! category: geometry
 //! synonyms: color attribute, vertex paint, mesh color, vertex alpha, attribute
-//! The colour that is painted on the mesh's vertices; white and opaque where the mesh has none.
+//! The colour that is painted on the mesh's vertices.
 
 /// The two parts of a vertex colour.
 struct VertexColor {
