@@ -13,7 +13,7 @@ fn lattice_gradient2(hash: u32, offset: vec2f) -> f32 {
     return select(axis, diagonal, (hash & 0x20000000u) != 0u);
 }
 
-/// Dot product of `offset` with one of twelve vectors from the centre of a cube to its edges (Perlin 2002; length sqrt 2).
+/// Dot product of `offset` with one of the twelve edge midpoints of a cube of side 2 (Perlin 2002; length sqrt 2).
 fn lattice_gradient3(hash: u32, offset: vec3f) -> f32 {
     let choice = hash % 12u;
     let first = select(offset.x, offset.y, choice >= 8u);

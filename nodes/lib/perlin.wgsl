@@ -1,4 +1,4 @@
-//! use: hash, lattice_gradients
+//! use: hash, lattice_gradients, fractal
 //! Gradient noise on the square and cubic lattice (Perlin 2002, "Improving Noise"): zero at lattice points, within
 //! [-1, 1], mean 0. The scale factors are one over the largest sum that the gradients allow.
 
@@ -45,4 +45,25 @@ fn perlin_noise3(p: vec3f) -> f32 {
     let x01 = mix(perlin_corner3(cell, f, vec3f(0.0, 0.0, 1.0)), perlin_corner3(cell, f, vec3f(1.0, 0.0, 1.0)), w.x);
     let x11 = mix(perlin_corner3(cell, f, vec3f(0.0, 1.0, 1.0)), perlin_corner3(cell, f, vec3f(1.0, 1.0, 1.0)), w.x);
     return mix(mix(x00, x10, w.y), mix(x01, x11, w.y), w.z) * 0.9649214;
+}
+
+/// Mean of |perlin_noise3|, measured over 4 million points.
+const PERLIN3_MEAN_ABSOLUTE: f32 = 0.2116;
+
+/// Mean of (1 - |perlin_noise3|)^2, measured over 4 million points.
+const PERLIN3_MEAN_RIDGE: f32 = 0.6442;
+
+/// Turbulence (Perlin 1985): five octaves of |perlin_noise3|, each twice as fine and half as strong; 0..1.
+/// `footprint` is the size of a pixel in units of `p`.
+fn perlin_turbulence5(p: vec3f, footprint: f32) -> f32 {
+    var sum = 0.0;
+    var amplitude = 0.5161290;
+    var frequency = 1.0;
+    for (var octave = 0; octave < 5; octave++) {
+        let noise = abs(perlin_noise3(p * frequency + octave_shift3(octave)));
+        sum += amplitude * mix(PERLIN3_MEAN_ABSOLUTE, noise, detail_left(footprint * frequency));
+        amplitude *= 0.5;
+        frequency *= 2.0;
+    }
+    return sum;
 }

@@ -2,7 +2,8 @@
 //! category: procedural
 //! synonyms: gradient noise, opensimplex, bumps, solid noise
 //! use: simplex
-//! Smooth random bumps on a tetrahedral lattice, with fewer directional artefacts than Perlin noise (Perlin 2001, Gustavson 2005).
+//! Smooth random bumps on a tetrahedral lattice, with fewer directional artefacts than Perlin noise
+//! (Perlin 2001, Gustavson 2005).
 //! option range: unit | signed = unit - Values from 0 to 1 around 0.5, or from -1 to 1 around 0.
 
 /// position (point object; = @position_object): Where to look the noise up.
