@@ -2,9 +2,9 @@
 //! category: geometry
 //! synonyms: detail normal, combine normals, reoriented normal mapping
 //! use: safe_normal
-//! Puts the relief of a detail normal on top of that of a base normal. Both are normals in the world, bent away from the
-//! same smooth surface (methods compared by Barre-Brisebois and Hill 2012, "Blending in Detail").
-//! option method: reoriented | whiteout | udn = reoriented - Turn the detail with the base, or add slopes in either of two ways.
+//! Puts the relief of a detail normal on top of that of a base normal. Both are normals in the world, bent away from
+//! the same smooth surface (methods compared by Barre-Brisebois and Hill 2012, "Blending in Detail").
+//! option method: reoriented | whiteout | udn = reoriented - Turn the detail with the base, or add slopes.
 
 /// base (normal world unit; = @normal_world): Normal with the coarse relief.
 /// detail (normal world unit; = @normal_world): Normal with the fine relief.

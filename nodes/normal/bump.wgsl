@@ -2,8 +2,8 @@
 //! category: geometry
 //! synonyms: height map, displacement, relief, dents
 //! use: safe_normal
-//! Bends the normal as if the surface were raised by a height, without needing texture coordinates: the surface gradient
-//! from screen-space derivatives (Mikkelsen 2010, "Bump Mapping Unparametrized Surfaces on the GPU").
+//! Bends the normal as if the surface were raised by a height, without needing texture coordinates: the surface
+//! gradient from screen-space derivatives (Mikkelsen 2010, "Bump Mapping Unparametrized Surfaces on the GPU").
 
 /// height (scalar): Height of the surface; any pattern or image. 1 stands for `amplitude` metres.
 /// amplitude (distance; = 0.02; in m): Metres that a height of 1 stands for.

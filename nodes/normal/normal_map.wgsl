@@ -12,7 +12,6 @@
 /// normal (normal world near; = @normal_world; hidden): Normal of the smooth surface.
 /// -> normal (normal world unit): The bent normal.
 fn normal_map(color: vec3f, strength: f32, tangent: vec3f, bitangent: vec3f, normal: vec3f) -> vec3f {
-    // 128 of 255 is the flat middle of an 8-bit map, but so is 0.5 of a default: both are straight up within 0.25 deg.
     let packed = color * 2.0 - 1.0;
 //#if green == up
     let bend = packed.xy * strength;
@@ -21,7 +20,7 @@ fn normal_map(color: vec3f, strength: f32, tangent: vec3f, bitangent: vec3f, nor
 //#end
     // A compressed or filtered map may have lost its third channel's sign; a normal never points into the surface.
     let height = max(packed.z, 1e-3);
-    // The axes are used as interpolated, without making them orthogonal: that is what map bakers assume (Mikkelsen 2008).
+    // The axes are used as interpolated, not made orthogonal: that is what map bakers assume (Mikkelsen 2008).
     let world = bend.x * tangent + bend.y * bitangent + height * normal;
     return unit_normal_or(world, unit_normal_or(normal, vec3f(0.0, 1.0, 0.0)));
 }
