@@ -1,13 +1,6 @@
 //! use: hash
 //! Cellular noise: distances to points that are scattered one to a cell (Worley 1996).
 
-/// Distances to the nearest and the second nearest point, and a random number of the nearest one's cell.
-struct CellularHit {
-    f1: f32,
-    f2: f32,
-    id: f32,
-}
-
 /// Where the point of a 2D cell lies in it: `jitter` 0 puts it in the middle, 1 anywhere.
 fn cell_point2(hash: vec2u, jitter: f32) -> vec2f {
     return 0.5 + (hash_to_unit2(hash) - 0.5) * jitter;

@@ -1,11 +1,5 @@
 //! What the colour ramps share.
 
-/// A colour between two, and how far from the first to the second it lies.
-struct RampPoint {
-    color: vec3f,
-    value: f32,
-}
-
 /// How far `x` has come from `start` to `end`, kept within 0..1; a step where both are equal.
 fn ramp_share(x: f32, start: f32, end: f32) -> f32 {
     let span = end - start;

@@ -14,8 +14,8 @@
 /// mortar_color (color reflectance; = (0.76, 0.73, 0.68); 0..1; srgb): Colour of the mortar.
 /// variation (scalar; = 0.35; 0..1): How much bricks differ in brightness.
 /// -> color (color reflectance): Colour of the wall.
-/// -> mask (scalar; 0..1): 1 on a brick, 0 in the mortar.
-/// -> id (scalar; 0..1): A random number for each brick.
+/// -> mask (scalar): 1 on a brick, 0 in the mortar.
+/// -> id (scalar): A random number in 0..1 for each brick.
 fn brick(
     texcoord: vec2f,
     columns: f32,

@@ -10,7 +10,7 @@
 /// color_a (color reflectance; = (0.9, 0.9, 0.9); 0..1; srgb): Colour of the square at the origin.
 /// color_b (color reflectance; = (0.2, 0.2, 0.2); 0..1; srgb): Colour of its neighbours.
 /// -> color (color reflectance): Colour of the pattern.
-/// -> mask (scalar; 0..1): 1 in squares of the first colour, 0 in the others.
+/// -> mask (scalar): 1 in squares of the first colour, 0 in the others.
 fn checker(texcoord: vec2f, scale: f32, color_a: vec3f, color_b: vec3f) -> CheckerPoint {
     let p = texcoord * scale;
     let width = pixel_width2(p);

@@ -9,7 +9,7 @@
 /// color_a (color reflectance; = (0.9, 0.9, 0.9); 0..1; srgb): Colour of the cube that begins at the origin.
 /// color_b (color reflectance; = (0.2, 0.2, 0.2); 0..1; srgb): Colour of its neighbours.
 /// -> color (color reflectance): Colour of the pattern.
-/// -> mask (scalar; 0..1): 1 in cubes of the first colour, 0 in the others.
+/// -> mask (scalar): 1 in cubes of the first colour, 0 in the others.
 fn checker3d(position: vec3f, scale: f32, color_a: vec3f, color_b: vec3f) -> SolidCheckerPoint {
     // A face that lies exactly on a cube boundary would be torn between both colours by rounding.
     let p = position * scale + 1e-3;

@@ -11,8 +11,8 @@
 /// dot_color (color reflectance; = (0.2, 0.2, 0.2); 0..1; srgb): Colour of the dots.
 /// ground_color (color reflectance; = (0.9, 0.9, 0.9); 0..1; srgb): Colour between them.
 /// -> color (color reflectance): Colour of the pattern.
-/// -> mask (scalar; 0..1): 1 in a dot, 0 outside.
-/// -> id (scalar; 0..1): A random number for each dot.
+/// -> mask (scalar): 1 in a dot, 0 outside.
+/// -> id (scalar): A random number in 0..1 for each dot.
 fn dots(texcoord: vec2f, scale: f32, radius: f32, dot_color: vec3f, ground_color: vec3f) -> DotPoint {
     let p = texcoord * scale;
     let pixel = pixel_width2(p);

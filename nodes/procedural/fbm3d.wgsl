@@ -15,9 +15,9 @@ const OCTAVES: i32 = 5;
 /// lacunarity (scalar; = 2; 1..8): How much finer each octave is than the one before.
 /// gain (scalar; = 0.5; 0..1): How much weaker each octave is than the one before.
 //#if range == unit
-/// -> value (scalar; 0..1): Noise around 0.5.
+/// -> value (scalar): Noise in 0..1 around 0.5.
 //#else
-/// -> value (scalar; -1..1): Noise around 0.
+/// -> value (scalar): Noise in -1..1 around 0.
 //#end
 fn fbm3d(position: vec3f, scale: f32, lacunarity: f32, gain: f32) -> f32 {
     let base = position * scale;

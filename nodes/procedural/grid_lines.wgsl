@@ -11,7 +11,7 @@
 /// line_color (color reflectance; = (0.15, 0.15, 0.15); 0..1; srgb): Colour of the lines.
 /// ground_color (color reflectance; = (0.85, 0.85, 0.85); 0..1; srgb): Colour between them.
 /// -> color (color reflectance): Colour of the grid.
-/// -> mask (scalar; 0..1): 1 on a line, 0 between lines.
+/// -> mask (scalar): 1 on a line, 0 between lines.
 fn grid_lines(texcoord: vec2f, scale: f32, thickness: f32, line_color: vec3f, ground_color: vec3f) -> GridPoint {
     let line = clamp(thickness, 0.0, 1.0);
     let p = texcoord * scale;

@@ -11,9 +11,9 @@
 /// tile_color (color reflectance; = (0.85, 0.62, 0.20); 0..1; srgb): Colour of the hexagons.
 /// gap_color (color reflectance; = (0.2, 0.2, 0.2); 0..1; srgb): Colour of the gaps.
 /// -> color (color reflectance): Colour of the pattern.
-/// -> mask (scalar; 0..1): 1 in a hexagon, 0 in a gap.
-/// -> edge_distance (scalar; 0..0.5): Distance to the nearest border as a share of the width; 0.5 in the middle.
-/// -> id (scalar; 0..1): A random number for each hexagon.
+/// -> mask (scalar): 1 in a hexagon, 0 in a gap.
+/// -> edge_distance (scalar): Distance to the nearest border as a share of the width; 0.5 in the middle.
+/// -> id (scalar): A random number in 0..1 for each hexagon.
 fn hexagons(texcoord: vec2f, scale: f32, gap: f32, tile_color: vec3f, gap_color: vec3f) -> HexagonPoint {
     let p = texcoord * scale;
     let pixel = pixel_width2(p);

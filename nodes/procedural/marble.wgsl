@@ -12,7 +12,7 @@
 /// base_color (color reflectance; = (0.86, 0.85, 0.82); 0..1; srgb): The stone.
 /// vein_color (color reflectance; = (0.25, 0.25, 0.28); 0..1; srgb): The veins.
 /// -> color (color reflectance): Colour of the stone.
-/// -> vein (scalar; 0..1): Share of the vein's colour.
+/// -> vein (scalar): Share of the vein's colour, 0..1.
 fn marble(
     position: vec3f,
     direction: vec3f,

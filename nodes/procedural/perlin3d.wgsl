@@ -8,9 +8,9 @@
 /// position (point object; = @position_object): Where to look the noise up.
 /// scale (scalar; = 4): Features per metre.
 //#if range == unit
-/// -> value (scalar; 0..1): Noise; mean 0.5, standard deviation 0.13.
+/// -> value (scalar): Noise in 0..1; mean 0.5, standard deviation 0.13.
 //#else
-/// -> value (scalar; -1..1): Noise; mean 0, standard deviation 0.26.
+/// -> value (scalar): Noise in -1..1; mean 0, standard deviation 0.26.
 //#end
 fn perlin3d(position: vec3f, scale: f32) -> f32 {
     let noise = perlin_noise3(position * scale);

@@ -12,8 +12,8 @@
 /// start_color (color; = (0, 0, 0); 0..; srgb): First colour.
 /// end_color (color; = (1, 1, 1); 0..; srgb): Last colour.
 /// -> color (color): The blend, in linear light.
-/// -> value (scalar; 0..1): How far along the ramp.
-fn ramp_linear(texcoord: vec2f, start: f32, end: f32, start_color: vec3f, end_color: vec3f) -> RampPoint {
+/// -> value (scalar): How far along the ramp, 0..1.
+fn ramp_linear(texcoord: vec2f, start: f32, end: f32, start_color: vec3f, end_color: vec3f) -> LinearRampPoint {
 //#if axis == u
     let along = ramp_share(texcoord.x, start, end);
 //#else
@@ -24,5 +24,10 @@ fn ramp_linear(texcoord: vec2f, start: f32, end: f32, start_color: vec3f, end_co
 //#else
     let value = along * along * (3.0 - 2.0 * along);
 //#end
-    return RampPoint(mix(start_color, end_color, value), value);
+    return LinearRampPoint(mix(start_color, end_color, value), value);
+}
+
+struct LinearRampPoint {
+    color: vec3f,
+    value: f32,
 }

@@ -11,13 +11,18 @@
 /// start_color (color; = (1, 1, 1); 0..; srgb): Colour in the middle.
 /// end_color (color; = (0, 0, 0); 0..; srgb): Colour on the rim.
 /// -> color (color): The blend, in linear light.
-/// -> value (scalar; 0..1): 0 in the middle, 1 on the rim and beyond.
-fn ramp_radial(texcoord: vec2f, center: vec2f, radius: f32, start_color: vec3f, end_color: vec3f) -> RampPoint {
+/// -> value (scalar): 0 in the middle, 1 on the rim and beyond.
+fn ramp_radial(texcoord: vec2f, center: vec2f, radius: f32, start_color: vec3f, end_color: vec3f) -> RadialRampPoint {
     let along = ramp_share(length(texcoord - center), 0.0, radius);
 //#if falloff == linear
     let value = along;
 //#else
     let value = along * along * (3.0 - 2.0 * along);
 //#end
-    return RampPoint(mix(start_color, end_color, value), value);
+    return RadialRampPoint(mix(start_color, end_color, value), value);
+}
+
+struct RadialRampPoint {
+    color: vec3f,
+    value: f32,
 }

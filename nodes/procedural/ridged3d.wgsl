@@ -13,7 +13,7 @@ const OCTAVES: i32 = 5;
 /// lacunarity (scalar; = 2; 1..8): How much finer each octave is than the one before.
 /// gain (scalar; = 0.5; 0..1): How much weaker each octave is than the one before.
 /// sharpness (scalar; = 2; 0..4): How strongly detail gathers on the ridges of the coarser octave.
-/// -> value (scalar; 0..1): Height of the ridges; 1 along the crests.
+/// -> value (scalar): Height of the ridges, 0..1; 1 along the crests.
 fn ridged3d(position: vec3f, scale: f32, lacunarity: f32, gain: f32, sharpness: f32) -> f32 {
     let base = position * scale;
     let footprint = octave_footprint3(base);

@@ -9,9 +9,9 @@
 /// texcoord (texcoord; = @texcoord): Where to look the noise up.
 /// scale (scalar; = 8): Features per unit of the texture coordinate.
 //#if range == unit
-/// -> value (scalar; 0..1): Noise; mean 0.5, standard deviation 0.27.
+/// -> value (scalar): Noise in 0..1; mean 0.5, standard deviation 0.27.
 //#else
-/// -> value (scalar; -1..1): Noise; mean 0, standard deviation 0.54.
+/// -> value (scalar): Noise in -1..1; mean 0, standard deviation 0.54.
 //#end
 fn simplex2d(texcoord: vec2f, scale: f32) -> f32 {
     let noise = simplex_noise2(texcoord * scale);

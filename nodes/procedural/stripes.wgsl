@@ -11,7 +11,7 @@
 /// color_a (color reflectance; = (0.9, 0.9, 0.9); 0..1; srgb): First colour.
 /// color_b (color reflectance; = (0.2, 0.2, 0.2); 0..1; srgb): Second colour.
 /// -> color (color reflectance): Colour of the pattern.
-/// -> mask (scalar; 0..1): 1 in stripes of the first colour, 0 in the others.
+/// -> mask (scalar): 1 in stripes of the first colour, 0 in the others.
 fn stripes(texcoord: vec2f, scale: f32, rotation: f32, share: f32, color_a: vec3f, color_b: vec3f) -> StripePoint {
     let across = dot(texcoord, vec2f(cos(rotation), sin(rotation))) * scale;
     let mask = filtered_pulse(across, clamp(share, 0.0, 1.0), pixel_width1(across));

@@ -12,7 +12,7 @@ const OCTAVES: i32 = 5;
 /// scale (scalar; = 2): Features of the coarsest octave per metre.
 /// lacunarity (scalar; = 2; 1..8): How much finer each octave is than the one before.
 /// gain (scalar; = 0.5; 0..1): How much weaker each octave is than the one before.
-/// -> value (scalar; 0..1): Turbulence; 0 in the creases, mean 0.21.
+/// -> value (scalar): Turbulence in 0..1; 0 in the creases, mean 0.21.
 fn turbulence3d(position: vec3f, scale: f32, lacunarity: f32, gain: f32) -> f32 {
     let base = position * scale;
     let footprint = octave_footprint3(base);

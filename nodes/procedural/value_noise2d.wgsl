@@ -9,9 +9,9 @@
 /// texcoord (texcoord; = @texcoord): Where to look the noise up.
 /// scale (scalar; = 8): Features per unit of the texture coordinate.
 //#if range == unit
-/// -> value (scalar; 0..1): Noise; mean 0.5, standard deviation 0.23.
+/// -> value (scalar): Noise in 0..1; mean 0.5, standard deviation 0.23.
 //#else
-/// -> value (scalar; -1..1): Noise; mean 0, standard deviation 0.45.
+/// -> value (scalar): Noise in -1..1; mean 0, standard deviation 0.45.
 //#end
 fn value_noise2d(texcoord: vec2f, scale: f32) -> f32 {
     let noise = value_lattice2(texcoord * scale);

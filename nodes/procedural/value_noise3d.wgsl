@@ -9,9 +9,9 @@
 /// position (point object; = @position_object): Where to look the noise up.
 /// scale (scalar; = 4): Features per metre.
 //#if range == unit
-/// -> value (scalar; 0..1): Noise; mean 0.5, standard deviation 0.20.
+/// -> value (scalar): Noise in 0..1; mean 0.5, standard deviation 0.20.
 //#else
-/// -> value (scalar; -1..1): Noise; mean 0, standard deviation 0.40.
+/// -> value (scalar): Noise in -1..1; mean 0, standard deviation 0.40.
 //#end
 fn value_noise3d(position: vec3f, scale: f32) -> f32 {
     let noise = value_lattice3(position * scale);

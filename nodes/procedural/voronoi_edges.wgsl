@@ -9,9 +9,9 @@
 /// scale (scalar; = 6): Cells per unit of the texture coordinate.
 /// jitter (scalar; = 0.9; 0..1): How irregular the cells are: 0 is a square lattice.
 /// thickness (scalar; = 0.06; 0..1): Width of the borders as a share of a lattice cell.
-/// -> mask (scalar; 0..1): 1 inside a cell, 0 on a border; its edge is one pixel soft.
-/// -> edge_distance (scalar; 0..): Distance to the nearest border, in lattice cells.
-/// -> id (scalar; 0..1): A random number for each cell.
+/// -> mask (scalar): 1 inside a cell, 0 on a border; its edge is one pixel soft.
+/// -> edge_distance (scalar): Distance to the nearest border, in lattice cells.
+/// -> id (scalar): A random number in 0..1 for each cell.
 fn voronoi_edges(texcoord: vec2f, scale: f32, jitter: f32, thickness: f32) -> VoronoiPoint {
     let p = texcoord * scale;
     let pixel = pixel_width2(p);

@@ -9,7 +9,7 @@
 /// direction (vector; = (1, 0, 0)): Along which it repeats; its length does not matter.
 /// scale (scalar; = 5): Waves per metre.
 /// phase (scalar; = 0): Moves the wave; 1 is a whole wave.
-/// -> value (scalar; 0..1): The wave; it starts at 0, or at 1 if it is square.
+/// -> value (scalar): The wave, 0..1; it starts at 0, or at 1 if it is square.
 fn wave(position: vec3f, direction: vec3f, scale: f32, phase: f32) -> f32 {
     let along = dot(position, direction) / max(length(direction), 1e-6) * scale;
     let width = pixel_width1(along);

@@ -8,8 +8,8 @@
 /// position (point object; = @position_object): Where to look the noise up.
 /// scale (scalar; = 10): Cubes per metre.
 /// seed (scalar; = 0): Another whole number gives other values.
-/// -> value (scalar; 0..1): Evenly distributed random number of the cube, less than 1.
-/// -> color (color; 0..1): Three more of them, which do not depend on the first.
+/// -> value (scalar): Evenly distributed random number of the cube; from 0 to less than 1.
+/// -> color (color): Three more of them, which do not depend on the first.
 fn white_noise(position: vec3f, scale: f32, seed: f32) -> WhiteNoisePoint {
     // A face that lies exactly on a cube boundary would be torn between both cubes by rounding.
     let cell = floor(position * scale + 1e-3);

@@ -14,7 +14,7 @@
 /// early_color (color reflectance; = (0.80, 0.60, 0.38); 0..1; srgb): Wood of spring.
 /// late_color (color reflectance; = (0.48, 0.28, 0.14); 0..1; srgb): Wood of autumn.
 /// -> color (color reflectance): Colour of the wood.
-/// -> ring (scalar; 0..1): 0 in early wood, 1 in late wood.
+/// -> ring (scalar): 0 in early wood, 1 in late wood.
 fn wood_rings(
     position: vec3f,
     center: vec3f,

@@ -13,10 +13,10 @@ const REACH: i32 = 1;
 /// texcoord (texcoord; = @texcoord): Where to look the cells up.
 /// scale (scalar; = 6): Cells per unit of the texture coordinate.
 /// jitter (scalar; = 1; 0..1): How irregular the cells are: 0 is a regular lattice.
-/// -> f1 (scalar; 0..): Distance to the nearest point.
-/// -> f2 (scalar; 0..): Distance to the second nearest point.
-/// -> id (scalar; 0..1): A random number for each cell.
-fn worley2d(texcoord: vec2f, scale: f32, jitter: f32) -> CellularHit {
+/// -> f1 (scalar): Distance to the nearest point.
+/// -> f2 (scalar): Distance to the second nearest point.
+/// -> id (scalar): A random number in 0..1 for each cell.
+fn worley2d(texcoord: vec2f, scale: f32, jitter: f32) -> Worley2dPoint {
     let p = texcoord * scale;
     let home = floor(p);
     let spread = clamp(jitter, 0.0, 1.0);
@@ -40,8 +40,14 @@ fn worley2d(texcoord: vec2f, scale: f32, jitter: f32) -> CellularHit {
         }
     }
 //#if metric == euclidean
-    return CellularHit(sqrt(f1), sqrt(f2), cell_id2(nearest));
+    return Worley2dPoint(sqrt(f1), sqrt(f2), cell_id2(nearest));
 //#else
-    return CellularHit(f1, f2, cell_id2(nearest));
+    return Worley2dPoint(f1, f2, cell_id2(nearest));
 //#end
+}
+
+struct Worley2dPoint {
+    f1: f32,
+    f2: f32,
+    id: f32,
 }

@@ -9,11 +9,7 @@
 //! option filter: nearest | linear | trilinear = trilinear - How texels and sizes are blended.
 //! option address: repeat | clamp | mirror = repeat - What lies beyond the picture.
 //! option anisotropy: 1 | 4 | 16 = 1 - Most samples along a slanted pixel; used with trilinear filtering.
-//#if filter == trilinear
 //! sampler image_sampler: filter=$filter address=$address anisotropy=$anisotropy
-//#else
-//! sampler image_sampler: filter=$filter address=$address
-//#end
 //! texture image: encoding=$color_space
 
 /// image (texture): Path of a PNG, JPEG or HDR file.
@@ -28,7 +24,7 @@
 /// scale (scalar; = 1): Pictures per metre.
 /// sharpness (scalar; = 4; 1..32): How narrow the blend between two axes is.
 /// -> color (color): Colour in linear light.
-/// -> alpha (scalar; 0..1): Opacity; 1 if the file has none.
+/// -> alpha (scalar): Opacity, 0..1; 1 if the file has none.
 fn image_triplanar(
     image: texture_2d<f32>,
     image_sampler: sampler,

@@ -9,7 +9,7 @@
 /// texcoord (texcoord; = @texcoord): Coordinates to repeat.
 /// scale (number; = (4, 4)): Tiles per unit.
 /// -> texcoord (texcoord): Coordinates within the tile, 0..1.
-/// -> id (scalar; 0..1): A random number for each tile.
+/// -> id (scalar): A random number in 0..1 for each tile.
 fn tile(texcoord: vec2f, scale: vec2f) -> TilePoint {
     let p = texcoord * scale;
     let cell = floor(p);
