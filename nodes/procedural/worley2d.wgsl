@@ -4,9 +4,9 @@
 //! use: cellular
 //! Cells on texture coordinates around points that are scattered one to a lattice cell: the distances to the
 //! nearest and the second nearest point, in cells (Worley 1996).
-//! option metric: euclidean | manhattan | chebyshev = euclidean - How distance is measured; it shapes the cells.
 //! With a reach of 1 the second distance is too long at about 1 in 9,000 places (1 in 280 for the manhattan metric).
-//! option reach: 1 | 2 = 1 - Lattice cells searched to each side; 2 is exact.
+//! option metric: euclidean | manhattan | chebyshev = euclidean - How distance is measured; it shapes the cells.
+//! option reach: 1 | 2 = 1 - Lattice cells searched to each side; 2 was exact at 4 million places.
 
 const REACH: i32 = 1;
 
