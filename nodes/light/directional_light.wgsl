@@ -22,8 +22,8 @@ fn directional_light(
     radius: f32,
 ) -> DirectionalLight {
     // A direction of length zero counts as straight down.
-    let length_squared = dot(direction, direction);
-    let axis = select(direction * inverseSqrt(max(length_squared, 1e-20)), vec3f(0.0, -1.0, 0.0), length_squared < 1e-20);
+    let square = dot(direction, direction);
+    let axis = select(direction * inverseSqrt(max(square, 1e-20)), vec3f(0.0, -1.0, 0.0), square < 1e-20);
     return DirectionalLight(color * intensity, -axis, max(dot(point - center, axis) + radius, 0.0));
 }
 
