@@ -8,11 +8,8 @@
 //! option taps: nearest | bilinear | hardware = bilinear - How a tap reads: the nearest texel (stairs), four texels blended after exact comparisons, or four blended by the sampler with one biased comparison.
 //! option size: 256 | 512 | 1024 | 2048 | 4096 = 2048 - Texels on a side of the map.
 //! map map: depth(size=$size)
-//#if taps == hardware
-//! sampler map_sampler: compare=on filter=linear address=clamp
-//#else
 //! sampler map_sampler: compare=on filter=nearest address=clamp
-//#end
+//! sampler blending_sampler: compare=on filter=linear address=clamp
 
 //#if width != 1
 const WIDTH: i32 = 5;
@@ -21,7 +18,11 @@ const WIDTH: i32 = 5;
 /// point (point world; = @position_world; hidden): The shaded point.
 /// space (space; hidden): The light's space.
 /// map (map; hidden): Linear depth of the nearest surface.
-/// map_sampler (sampler; hidden): Compares with texels.
+//#if taps == hardware
+/// blending_sampler (sampler; hidden): Compares with four texels and blends the results.
+//#else
+/// map_sampler (sampler; hidden): Compares with one texel.
+//#end
 /// bias (distance; = 0; 0..; in m): Extra distance by which an occluder must be nearer to the light, for surfaces that the plane does not describe.
 /// receives (scalar; = @receives; hidden): 0 where the object takes no shadows.
 /// -> visibility (scalar visibility): 1 lit, 0 in shadow.
@@ -29,7 +30,11 @@ fn pcf_shadow(
     point: vec3f,
     space: LightSpace,
     map: texture_depth_2d,
+//#if taps == hardware
+    blending_sampler: sampler_comparison,
+//#else
     map_sampler: sampler_comparison,
+//#end
     bias: f32,
     receives: f32,
 ) -> f32 {
@@ -63,7 +68,7 @@ fn pcf_shadow(
     let visibility = textureSampleCompareLevel(map, map_sampler, uv, receiver_depth(space, plane, uv) - margin);
 //#else
     let depth = receiver_depth(space, plane, plane.uv) - margin;
-    let visibility = textureSampleCompareLevel(map, map_sampler, plane.uv, depth);
+    let visibility = textureSampleCompareLevel(map, blending_sampler, plane.uv, depth);
 //#end
 //#else
 //#if taps == bilinear
@@ -115,7 +120,11 @@ fn pcf_shadow(
 //#end
             let uv = (first + vec2f(f32(x + WIDTH / 2), f32(y + WIDTH / 2))) / size;
             let depth = receiver_depth(space, plane, uv) - margin;
+//#if taps == hardware
+            sum += weight * textureSampleCompareLevel(map, blending_sampler, uv, depth);
+//#else
             sum += weight * textureSampleCompareLevel(map, map_sampler, uv, depth);
+//#end
             total += weight;
         }
     }

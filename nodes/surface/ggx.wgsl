@@ -2,7 +2,7 @@
 //! category: surface
 //! synonyms: pbr, ggx, physically based, metal, plastic, principled, cook-torrance
 //! use: microfacet, environment
-//! Metals and plastics: GGX facets (Walter et al. 2007) with height-correlated masking (Heitz 2014) and Schlick's Fresnel over a matte base. Light that bounces between facets is lost, up to half at roughness 1.
+//! Metals and plastics: GGX facets (Walter et al. 2007) with height-correlated masking (Heitz 2014) and Schlick's Fresnel over a matte base. Light that bounces between facets is lost: 69% at most, for a white metal of roughness 1 seen straight on.
 
 /// irradiance (color irradiance): Light that arrives, measured facing the light.
 /// to_light (direction world unit): Towards the light.
