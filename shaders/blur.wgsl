@@ -1,7 +1,7 @@
 //! label: Blur
 //! kind: image
 //! use: kernel, fullscreen
-//! One axis of a separable blur; edge texels are repeated. The weights are those of percentage-closer filtering, normalised.
+//! One axis of a separable blur; edge texels are repeated. The weights are those of percentage-closer filtering, normalised. The target has the format of the source.
 //! option width: 1 | 3 | 5 | 7 | 9 | 11 = 5 - Texels across.
 //! option weights: gaussian | box | tent = gaussian - Shape of the kernel.
 //! option axis: x | y = x - Direction of this run.

@@ -1,7 +1,7 @@
 //! label: Mip level
 //! kind: mip
 //! use: fullscreen
-//! One mip level as the exact average of the level above; levels of odd size take three texels instead of two.
+//! One mip level as the exact average of the level above; levels of odd size take three texels instead of two. The target has the format of the source.
 //! option levels: off | on = on - Whether the levels are made at all.
 //! skip: levels == off
 //! target: rg32float | rg16unorm | rg16float

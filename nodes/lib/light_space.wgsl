@@ -82,7 +82,7 @@ fn receiver_depth(space: LightSpace, plane: ReceiverPlane, uv: vec2f) -> f32 {
     return saturate(light_linear_depth(space, select(parallel, perspective, space.projection.z > 0.5)));
 }
 
-/// Upper bound of the change of linear depth over one step of `uv` at the shaded point: |d depth/du|, |d depth/dv|.
+/// Size of the change of linear depth per unit of `uv` at the shaded point: |d depth/du|, |d depth/dv|.
 fn receiver_slope(space: LightSpace, plane: ReceiverPlane) -> vec2f {
     return abs(plane.slope) * select(1.0, plane.distance, space.projection.z > 0.5) * space.depth.z;
 }
