@@ -59,10 +59,22 @@ fn fresnel_dielectric(cosine: f32, ior: f32) -> f32 {
     return select(saturate(0.5 * (across * across + along * along)), 1.0, inside_square <= 0.0);
 }
 
-/// What a GGX surface reflects of surroundings of even brightness: x times the reflectance at normal incidence plus y.
-/// Analytic fit by Karis 2014, "Physically Based Shading on Mobile".
+/// What a GGX surface reflects of surroundings of even brightness: x times the reflectance at normal incidence plus y
+/// (the split sum of Karis 2013, "Real Shading in Unreal Engine 4"). A rational fit to the integral of the functions
+/// above, so that ambient and direct light agree; it is off by 0.012 (rms) and by 0.06 at most.
 fn environment_brdf(roughness: f32, n_dot_v: f32) -> vec2f {
-    let r = saturate(roughness) * vec4f(-1.0, -0.0275, -0.572, 0.022) + vec4f(1.0, 0.0425, 1.04, -0.04);
-    let a = min(r.x * r.x, exp2(-9.28 * saturate(n_dot_v))) * r.x + r.y;
-    return max(vec2f(-1.04, 1.04) * a + r.zw, vec2f(0.0));
+    let r = saturate(roughness);
+    let m = saturate(n_dot_v);
+    let powers = vec3f(1.0, m, m * m);
+    let loss = vec3f(
+        dot(powers, vec3f(0.1843, 0.8889, -2.4358)),
+        dot(powers, vec3f(-0.5612, 0.5383, 4.5730)),
+        dot(powers, vec3f(0.4168, -0.3580, -2.1897)),
+    );
+    let lost = r * r * dot(loss, vec3f(1.0, r, r * r)) / (m + 0.5 * r * r + 0.02);
+    let grazing = 1.0 - m;
+    let fifth = grazing * grazing * grazing * grazing * grazing;
+    let at_grazing = fifth * saturate(1.0288 + 0.5008 * m + r * (2.8817 * m - 0.9173)) / (1.0 + 8.0 * r * r);
+    let share = saturate(1.0 - lost);
+    return vec2f(max(share - at_grazing, 0.0), min(at_grazing, share));
 }
