@@ -2,4 +2,6 @@
 
 pub mod diagnostic;
 pub mod semantic;
+pub mod ron;
+pub mod graph;
 pub mod node;
