@@ -9,9 +9,6 @@ use super::{End, Expose, Graph, Link, MAX_LINKS, check, comments, migrate, read_
 use crate::diagnostic::{Diagnostic, Place, SourceText, Span};
 use crate::ron::{self, Field, Node, Tree, expect_fields, field, unknown_fields};
 
-/// Most mistakes of one graph that are listed.
-const MAX_REPORTED: usize = 100;
-
 /// What was found wrong so far.
 pub(super) struct Report {
     pub(super) source: Arc<SourceText>,
@@ -26,17 +23,12 @@ impl Report {
 
     /// One more; beyond the limit only the fact that there are more is kept.
     pub(super) fn push(&mut self, diagnostic: Diagnostic) {
-        if self.found.len() < MAX_REPORTED {
-            self.found.push(diagnostic);
-        } else if self.found.len() == MAX_REPORTED {
-            let message = format!("more than {MAX_REPORTED} mistakes; the rest are not listed");
-            self.found.push(Diagnostic::error("ST0066", message, Place::file(&self.source.name)));
-        }
+        check::push(&mut self.found, diagnostic, Place::file(&self.source.name));
     }
 
     /// Whether nothing more will be listed: suggestions are then not worth searching for.
     pub(super) fn is_full(&self) -> bool {
-        self.found.len() >= MAX_REPORTED
+        self.found.len() >= check::MAX_REPORTED
     }
 
     /// The value of a reading, or nothing and its complaint reported.
@@ -69,7 +61,10 @@ impl Report {
 /// something.
 pub fn read(source: &Arc<SourceText>) -> (Option<Graph>, Vec<Diagnostic>) {
     let (document, found) = ron::read(source);
-    let mut report = Report { source: source.clone(), found };
+    let mut report = Report {
+        source: source.clone(),
+        found,
+    };
     let graph = document.and_then(|document| graph(&document, &mut report));
     (graph, report.found)
 }
@@ -81,7 +76,10 @@ fn graph(document: &ron::Document, report: &mut Report) -> Option<Graph> {
         return None;
     }
     let source = report.source.clone();
-    let mut graph = Graph { source: Some(source.clone()), ..Graph::default() };
+    let mut graph = Graph {
+        source: Some(source.clone()),
+        ..Graph::default()
+    };
     for (name, text) in [("name", &mut graph.name), ("note", &mut graph.note)] {
         let given = field(&fields, name).and_then(|node| report.take(node.as_str(&source)));
         *text = given.unwrap_or_default().to_string();
@@ -95,7 +93,13 @@ fn graph(document: &ron::Document, report: &mut Report) -> Option<Graph> {
     }
     if let Some(output) = field(&fields, "output") {
         graph.output = report.end(output);
-        check::end_exists(&graph, graph.output.as_ref(), "the output", || output.place(&source), report);
+        check::end_exists(
+            &graph,
+            graph.output.as_ref(),
+            "the output",
+            || output.place(&source),
+            report,
+        );
     }
     if let Some(node) = field(&fields, "expose") {
         graph.expose = expose(node, &graph, report);
@@ -103,11 +107,13 @@ fn graph(document: &ron::Document, report: &mut Report) -> Option<Graph> {
     if let Some(map) = field(&fields, "layout").and_then(|n| report.take(n.as_map(&source))) {
         graph.layout = layout(map, &graph, report);
     }
-    let known = ["version", "name", "note", "nodes", "links", "output", "expose", "layout"];
+    let known = [
+        "version", "name", "note", "nodes", "links", "output", "expose", "layout",
+    ];
     graph.unknown = report.unknown(&fields, &known);
     comments::keep(document, &source.text, items, &mut graph);
     graph.sort_links();
-    check::cycles(&graph, report);
+    check::cycles(&graph).for_each(|cycle| report.push(cycle));
     Some(graph)
 }
 
@@ -132,19 +138,34 @@ fn root_fields(root: &Node, report: &mut Report) -> Option<Vec<Field>> {
 
 fn links(list: &[Node], graph: &mut Graph, items: &mut Vec<Item>, report: &mut Report) {
     if list.len() > MAX_LINKS {
-        let message = format!("the graph has {} links; at most {MAX_LINKS} are handled", list.len());
-        report.push(Diagnostic::error("ST0060", message, report.at(list[MAX_LINKS].span.clone())));
+        let message = format!(
+            "the graph has {} links; at most {MAX_LINKS} are handled",
+            list.len()
+        );
+        report.push(Diagnostic::error(
+            "ST0060",
+            message,
+            report.at(list[MAX_LINKS].span.clone()),
+        ));
         return;
     }
     let mut seen: BTreeMap<(End, End), usize> = BTreeMap::new();
     for node in list {
-        let Some(link) = link(node, report) else { continue };
+        let Some(link) = link(node, report) else {
+            continue;
+        };
         let ends = (link.from.clone(), link.to.clone());
         let index = *seen.entry(ends).or_insert(graph.links.len());
-        items.push(Item { span: node.span.clone(), target: Target::Link(index) });
+        items.push(Item {
+            span: node.span.clone(),
+            target: Target::Link(index),
+        });
         if let Some(first) = graph.links.get_mut(index) {
             let message = format!("the link `{link}` is given twice");
-            report.push(Diagnostic::warning("ST0058", message, node.place(&report.source)).help("remove one of them"));
+            report.push(
+                Diagnostic::warning("ST0058", message, node.place(&report.source))
+                    .help("remove one of them"),
+            );
             comments::append(&mut first.note, &link.note);
             first.unknown.extend(link.unknown);
             continue;
@@ -159,7 +180,11 @@ fn link(node: &Node, report: &mut Report) -> Option<Link> {
     let (ends, fields) = match &node.value {
         Tree::Struct(_, fields) => {
             let Some(ends) = field(fields, "link") else {
-                let missing = Diagnostic::error("ST0011", "the link has no field `link`", node.place(&source));
+                let missing = Diagnostic::error(
+                    "ST0011",
+                    "the link has no field `link`",
+                    node.place(&source),
+                );
                 report.push(missing.help("write `(link: \"from -> to\", note: \"...\")`"));
                 return None;
             };
@@ -187,15 +212,26 @@ fn link(node: &Node, report: &mut Report) -> Option<Link> {
 fn expose(node: &Node, graph: &Graph, report: &mut Report) -> Expose {
     let source = report.source.clone();
     let what = "`(inputs: {...}, outputs: {...}, options: {...})`";
-    let fields = report.take(expect_fields(node, &source, what)).unwrap_or_default();
-    let mut expose = Expose { unknown: report.unknown(fields, &["inputs", "outputs", "options"]), ..Expose::default() };
-    for (name, fans) in [("inputs", &mut expose.inputs), ("options", &mut expose.options)] {
+    let fields = report
+        .take(expect_fields(node, &source, what))
+        .unwrap_or_default();
+    let mut expose = Expose {
+        unknown: report.unknown(fields, &["inputs", "outputs", "options"]),
+        ..Expose::default()
+    };
+    for (name, fans) in [
+        ("inputs", &mut expose.inputs),
+        ("options", &mut expose.options),
+    ] {
         for (public, value) in entries(fields, name, report) {
             let nodes = match &value.value {
                 Tree::List(nodes) => nodes.as_slice(),
                 _ => std::slice::from_ref(value),
             };
-            let ends = nodes.iter().filter_map(|node| exposed(node, graph, report)).collect();
+            let ends = nodes
+                .iter()
+                .filter_map(|node| exposed(node, graph, report))
+                .collect();
             fans.insert(public, ends);
         }
     }
@@ -210,15 +246,25 @@ fn expose(node: &Node, graph: &Graph, report: &mut Report) -> Expose {
 fn exposed(node: &Node, graph: &Graph, report: &mut Report) -> Option<End> {
     let source = report.source.clone();
     let end = report.end(node)?;
-    check::end_exists(graph, Some(&end), "an exposed end", || node.place(&source), report);
+    check::end_exists(
+        graph,
+        Some(&end),
+        "an exposed end",
+        || node.place(&source),
+        report,
+    );
     Some(end)
 }
 
 /// The entries of a map field whose keys are texts.
 fn entries<'a>(fields: &'a [Field], name: &str, report: &mut Report) -> Vec<(String, &'a Node)> {
     let source = report.source.clone();
-    let map = field(fields, name).and_then(|n| report.take(n.as_map(&source))).unwrap_or_default();
-    map.iter().filter_map(|(key, value)| Some((report.take(key.as_str(&source))?.to_string(), value))).collect()
+    let map = field(fields, name)
+        .and_then(|n| report.take(n.as_map(&source)))
+        .unwrap_or_default();
+    map.iter()
+        .filter_map(|(key, value)| Some((report.take(key.as_str(&source))?.to_string(), value)))
+        .collect()
 }
 
 fn layout(map: &[(Node, Node)], graph: &Graph, report: &mut Report) -> BTreeMap<String, [f64; 2]> {
@@ -226,8 +272,12 @@ fn layout(map: &[(Node, Node)], graph: &Graph, report: &mut Report) -> BTreeMap<
     let mut layout = BTreeMap::new();
     let mut strangers = BTreeSet::new();
     for (key, value) in map {
-        let Some(name) = report.take(key.as_str(&source)) else { continue };
-        let Some(position) = report.take(value.as_array::<2>(&source)) else { continue };
+        let Some(name) = report.take(key.as_str(&source)) else {
+            continue;
+        };
+        let Some(position) = report.take(value.as_array::<2>(&source)) else {
+            continue;
+        };
         if !graph.nodes.contains_key(name) && strangers.insert(name) {
             let message = format!("there is a position for `{name}`, and no such node");
             report.push(Diagnostic::warning("ST0056", message, key.place(&source)));

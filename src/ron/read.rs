@@ -48,8 +48,18 @@ pub(super) struct Reader<'a> {
 /// Reads a text. With mistakes, the tree is what could be made out around them; without a tree, nothing could.
 pub fn read(source: &Arc<SourceText>) -> (Option<Document>, Vec<Diagnostic>) {
     if source.text.len() > MAX_BYTES {
-        let message = format!("the file has {} bytes; at most {MAX_BYTES} are read", source.text.len());
-        return (None, vec![Diagnostic::error("ST0005", message, Place::file(&source.name))]);
+        let message = format!(
+            "the file has {} bytes; at most {MAX_BYTES} are read",
+            source.text.len()
+        );
+        return (
+            None,
+            vec![Diagnostic::error(
+                "ST0005",
+                message,
+                Place::file(&source.name),
+            )],
+        );
     }
     let mut reader = Reader {
         source,
@@ -63,7 +73,11 @@ pub fn read(source: &Arc<SourceText>) -> (Option<Document>, Vec<Diagnostic>) {
     reader.eat("\u{feff}");
     let read = reader.document();
     let document = match read {
-        Ok((root, extensions)) => Some(Document { root, comments: reader.comments, extensions }),
+        Ok((root, extensions)) => Some(Document {
+            root,
+            comments: reader.comments,
+            extensions,
+        }),
         Err(mistake) => {
             // Fatal mistakes must be told even when the list is full.
             reader.diagnostics.truncate(MAX_ERRORS);
@@ -75,13 +89,22 @@ pub fn read(source: &Arc<SourceText>) -> (Option<Document>, Vec<Diagnostic>) {
 }
 
 fn diagnose(source: &Arc<SourceText>, mistake: Mistake) -> Diagnostic {
-    Diagnostic::error(mistake.code, mistake.message, Place::span(Span::new(source, mistake.at)))
+    Diagnostic::error(
+        mistake.code,
+        mistake.message,
+        Place::span(Span::new(source, mistake.at)),
+    )
 }
 
 impl Reader<'_> {
     pub(super) fn mistake(&self, code: &'static str, message: impl Into<String>) -> Mistake {
         let length = self.peek().map_or(0, char::len_utf8);
-        Mistake { code, message: message.into(), at: self.at..self.at + length, fatal: false }
+        Mistake {
+            code,
+            message: message.into(),
+            at: self.at..self.at + length,
+            fatal: false,
+        }
     }
 
     pub(super) fn report(&mut self, mistake: Mistake) {
@@ -89,7 +112,11 @@ impl Reader<'_> {
             n if n < MAX_ERRORS => self.diagnostics.push(diagnose(self.source, mistake)),
             MAX_ERRORS => {
                 let message = format!("more than {MAX_ERRORS} mistakes; the rest are not listed");
-                self.diagnostics.push(Diagnostic::error("ST0012", message, Place::file(&self.source.name)));
+                self.diagnostics.push(Diagnostic::error(
+                    "ST0012",
+                    message,
+                    Place::file(&self.source.name),
+                ));
             }
             _ => {}
         }
@@ -106,7 +133,10 @@ impl Reader<'_> {
         let root = self.value()?;
         self.blank()?;
         if self.at < self.text.len() {
-            let mistake = self.mistake("ST0007", "the file holds one value, and that has ended before here");
+            let mistake = self.mistake(
+                "ST0007",
+                "the file holds one value, and that has ended before here",
+            );
             self.report(mistake);
         }
         Ok((root, extensions))
@@ -132,7 +162,9 @@ impl Reader<'_> {
         for mark in [")", "]"] {
             self.blank()?;
             if !self.eat(mark) {
-                return Err(self.mistake("ST0001", format!("expected `{mark}` to close the header")));
+                return Err(
+                    self.mistake("ST0001", format!("expected `{mark}` to close the header"))
+                );
             }
         }
         Ok(words)
@@ -143,15 +175,26 @@ impl Reader<'_> {
         let start = self.at;
         self.values += 1;
         if self.values > MAX_VALUES {
-            return Err(fatal("ST0005", format!("the file holds more than {MAX_VALUES} values"), start..start + 1));
+            return Err(fatal(
+                "ST0005",
+                format!("the file holds more than {MAX_VALUES} values"),
+                start..start + 1,
+            ));
         }
         if self.depth >= MAX_DEPTH {
-            return Err(fatal("ST0004", format!("nested more than {MAX_DEPTH} levels deep"), start..start + 1));
+            return Err(fatal(
+                "ST0004",
+                format!("nested more than {MAX_DEPTH} levels deep"),
+                start..start + 1,
+            ));
         }
         self.depth += 1;
         let value = self.tree();
         self.depth -= 1;
-        Ok(Node { value: value?, span: start..self.at })
+        Ok(Node {
+            value: value?,
+            span: start..self.at,
+        })
     }
 
     fn tree(&mut self) -> Result<Tree, Mistake> {
@@ -235,7 +278,11 @@ impl Reader<'_> {
             reader.colon()?;
             let value = reader.value()?;
             if names.insert(name.clone()) {
-                fields.push(Field { name, name_span, value });
+                fields.push(Field {
+                    name,
+                    name_span,
+                    value,
+                });
             } else {
                 reader.twice(&name, name_span);
             }
@@ -263,7 +310,12 @@ impl Reader<'_> {
 
     fn twice(&mut self, name: &str, at: Range<usize>) {
         let message = format!("`{name}` is given twice here");
-        self.report(Mistake { code: "ST0006", message, at, fatal: false });
+        self.report(Mistake {
+            code: "ST0006",
+            message,
+            at,
+            fatal: false,
+        });
     }
 
     fn colon(&mut self) -> Result<(), Mistake> {
@@ -284,7 +336,13 @@ impl Reader<'_> {
         loop {
             self.blank()?;
             match self.peek() {
-                None => return Err(fatal("ST0001", format!("no `{close}` closes this"), open..self.at.min(open + 1))),
+                None => {
+                    return Err(fatal(
+                        "ST0001",
+                        format!("no `{close}` closes this"),
+                        open..self.at.min(open + 1),
+                    ));
+                }
                 Some(c) if c == close => {
                     self.at += c.len_utf8();
                     return Ok(());
@@ -301,7 +359,9 @@ impl Reader<'_> {
                     Some(',') => self.at += 1,
                     None => {}
                     Some(c) if c == close => {}
-                    Some(_) => return Err(self.mistake("ST0001", format!("expected `,` or `{close}`"))),
+                    Some(_) => {
+                        return Err(self.mistake("ST0001", format!("expected `,` or `{close}`")));
+                    }
                 }
                 Ok(())
             });
