@@ -118,6 +118,15 @@ impl Expander {
                 self.flat.nodes.insert(full, node);
                 continue;
             };
+            if task.chain.len() > MAX_NESTING {
+                let message = format!("subgraphs are nested more than {MAX_NESTING} deep at `{full}`");
+                self.push(Diagnostic::error(
+                    "ST0063",
+                    message,
+                    graph.kind_place(name),
+                ));
+                return None;
+            }
             let Some((file, inner)) = self.load(task, name, path, load) else {
                 continue;
             };
@@ -193,14 +202,6 @@ impl Expander {
                 cycle.join(" -> ")
             );
             self.push(Diagnostic::error("ST0062", message, place));
-            return None;
-        }
-        if task.chain.len() > MAX_NESTING {
-            let message = format!(
-                "subgraphs are nested more than {MAX_NESTING} deep at `{}{name}`",
-                task.prefix
-            );
-            self.push(Diagnostic::error("ST0063", message, place));
             return None;
         }
         Some((file, inner))

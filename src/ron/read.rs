@@ -358,7 +358,8 @@ impl Reader<'_> {
                 match self.peek() {
                     Some(',') => self.at += 1,
                     None => {}
-                    Some(c) if c == close => {}
+                    // A closing bracket of another kind is told at the head of the loop.
+                    Some(')' | ']' | '}') => {}
                     Some(_) => {
                         return Err(self.mistake("ST0001", format!("expected `,` or `{close}`")));
                     }

@@ -46,8 +46,8 @@ fn a_canonical_file_comes_back_byte_for_byte() {
     assert_eq!(
         told(&found),
         [
-            "ST0010 8:73 the field `later` is not known here",
-            "ST0010 14:52 the field `weight` is not known here",
+            "ST0010 8:71 the field `later` is not known here",
+            "ST0010 14:51 the field `weight` is not known here",
             "ST0010 29:9 the field `later` is not known here",
             "ST0010 31:5 the field `future` is not known here",
         ]
@@ -140,7 +140,7 @@ fn every_mistake_is_told_in_one_reading() {
             .and_then(|d| d.help.clone())
     };
     assert_eq!(help("ST0010").as_deref(), Some("did you mean `kind`?"));
-    assert_eq!(help("ST0056").as_deref(), Some("did you mean `noise`?"));
+    assert_eq!(help("ST0056").as_deref(), Some("did you mean `glass`?"));
 }
 
 #[test]
@@ -261,7 +261,7 @@ fn version_0_is_migrated() {
             .unwrap()
             .line_column()
             .0,
-        10
+        11
     );
 }
 
