@@ -88,6 +88,11 @@ fn steps(from: &Type) -> Vec<(u32, Step)> {
         Kind::Scalar if width == 1 => add(0, "vec3f($)", "color", Meaning { kind: Kind::Color, ..m }, 3),
         _ => {}
     }
+    // An image read without decoding may hold directions.
+    if m == Meaning::of(Kind::Color) && width == 3 {
+        let to = Meaning { frame: Frame::Tangent, encoding: Encoding::Signed01, ..m };
+        out.push((ASSUME, Step { template: "", to: Type::new(to, Shape::F32(3)), label: "" }));
+    }
     if m.encoding == Encoding::Signed01 && matches!(m.kind, Kind::Direction | Kind::Normal) && width == 3 {
         add(1, "($ * 2.0 - 1.0)", "signed", Meaning { encoding: Encoding::Linear, length: Length::Near, ..m }, 3);
     }
@@ -251,19 +256,15 @@ impl Conversions {
             value.shape.width()?;
             return self.chain(value, &Type::new(port.meaning, value.shape.clone())).map(|c| (*c).clone());
         }
-        let direct = {
-            let mut reach = self.reach.borrow_mut();
-            reach.entry(value.clone()).or_insert_with(|| Rc::new(Reach::from(value))).clone().to(port)
-        };
-        match (direct, value.shape.width(), port.shape.width()) {
-            (Some(chain), _, _) => Some(chain),
-            (None, Some(1), Some(width @ 2..=4)) if port.meaning.kind == Kind::Number => {
-                let template = ["vec2f($)", "vec3f($)", "vec4f($)"][usize::from(width) - 2];
-                let to = Type::new(port.meaning, port.shape.clone());
-                Some(Chain { cost: 3 * FORGET, steps: vec![Step { template, to, label: "wide" }] })
-            }
-            _ => None,
+        // One component is spread over an untyped port; a detour over colours would set an alpha of 1.
+        if let (Some(1), Some(width @ 2..=4), Kind::Number) = (value.shape.width(), port.shape.width(), port.meaning.kind) {
+            let template = ["vec2f($)", "vec3f($)", "vec4f($)"][usize::from(width) - 2];
+            let to = Type::new(port.meaning, port.shape.clone());
+            return Some(Chain { cost: 3 * FORGET, steps: vec![Step { template, to, label: "wide" }] });
         }
+        let mut known = self.reach.borrow_mut();
+        let reach = known.entry(value.clone()).or_insert_with(|| Rc::new(Reach::from(value))).clone();
+        reach.to(port)
     }
 }
 
