@@ -2,8 +2,10 @@
 
 pub mod compile;
 pub mod diagnostic;
+pub mod graph;
 pub mod module;
 pub mod node;
 pub mod plan;
+pub mod ron;
 pub mod scene;
 pub mod semantic;
