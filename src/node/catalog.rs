@@ -46,7 +46,7 @@ impl LibraryFile {
             let applied = file::apply(&mut report, &[], &[]);
             for d in applied.declarations.iter().filter(|d| d.entry || matches!(d.keyword, "var" | "override")) {
                 let place = applied.kept.original_range(d.name_range.clone());
-                report.error("ST125", place, format!("`{}` cannot stand in a library", d.name));
+                report.error("ST0125", place, format!("`{}` cannot stand in a library", d.name));
             }
             found.extend(report.found);
             let items = file::items_of(&applied);
@@ -99,7 +99,7 @@ impl Catalog {
             let whose = if old.is_embedded() { "comes with the program" } else { "was read before" };
             let message = format!("`{}` takes the place of a node that {whose}", file.kind());
             found.push(
-                Diagnostic::warning("ST132", message, Place::file(name)).help("rename the file to have both nodes"),
+                Diagnostic::warning("ST0132", message, Place::file(name)).help("rename the file to have both nodes"),
             );
         }
         self.files.insert(file.kind().to_owned(), Arc::new(file));
@@ -111,7 +111,7 @@ impl Catalog {
         let source = SourceText::new(name, text);
         if let Some((range, message)) = super::check::guard(text, 1 << 20) {
             let mut report = Report::new(&source);
-            report.error("ST130", range, message);
+            report.error("ST0130", range, message);
             return report.found;
         }
         let mut trial = self.clone();

@@ -108,8 +108,8 @@ pub(crate) fn check(libraries: &[&Library], kept: &Kept, source: &Arc<SourceText
     let finding = match judged {
         Ok(Ok(None)) => return Vec::new(),
         Ok(Ok(Some(finding))) => finding,
-        Ok(Err(_)) => finding_of("ST127", "the WGSL parser gave up on the text"),
-        Err(error) => finding_of("ST127", &format!("no thread for the WGSL parser: {error}")),
+        Ok(Err(_)) => finding_of("ST0127", "the WGSL parser gave up on the text"),
+        Err(error) => finding_of("ST0127", &format!("no thread for the WGSL parser: {error}")),
     };
     let range = finding.range.filter(|r| r.start >= before);
     let place = match &range {
@@ -140,7 +140,7 @@ fn judge(text: &str) -> Option<Finding> {
             let mut notes: Vec<String> = first.iter().map(|(_, l)| l.clone()).filter(|l| !l.is_empty()).collect();
             notes.extend(error.notes().map(str::to_owned));
             let message = error.message().to_owned();
-            return Some(Finding { code: "ST126", message, range: first.map(|(r, _)| r), notes });
+            return Some(Finding { code: "ST0126", message, range: first.map(|(r, _)| r), notes });
         }
     };
     let mut validator =
@@ -154,7 +154,7 @@ fn judge(text: &str) -> Option<Finding> {
         message = format!("{message}: {inner}");
         cause = inner.source();
     }
-    Some(Finding { code: "ST127", message, range, notes })
+    Some(Finding { code: "ST0127", message, range, notes })
 }
 
 #[cfg(test)]

@@ -46,7 +46,7 @@ fn read(
 ) -> Result<Definition, Vec<Diagnostic>> {
     let mut report = Report::new(source);
     if let Some((range, message)) = guard(&source.text, MAX_TEXT) {
-        report.error("ST130", range, message);
+        report.error("ST0130", range, message);
         return Err(report.found);
     }
     let (mut header, mut found) = header::parse(source, false);
@@ -65,7 +65,7 @@ fn read(
     let functions = || applied.declarations.iter().filter(|d| d.keyword == "fn" && !d.name.ends_with("_ambient"));
     let Some(main) = functions().find(|d| d.name == name).or_else(|| functions().last()) else {
         if report.found.is_empty() {
-            report.error("ST121", 0..0, "the text has no function").help("write `fn name(a: f32) -> f32 { ... }`");
+            report.error("ST0121", 0..0, "the text has no function").help("write `fn name(a: f32) -> f32 { ... }`");
         }
         return Err(report.found);
     };
@@ -81,7 +81,7 @@ fn read(
         if let Some(by) = by {
             let place = applied.kept.original_range(declaration.name_range.clone());
             taken
-                .error("ST131", place, format!("`{}` is a name that {by} uses", declaration.name))
+                .error("ST0131", place, format!("`{}` is a name that {by} uses", declaration.name))
                 .help("give it another name");
         }
     }
@@ -138,19 +138,19 @@ mod tests {
     #[test]
     fn mistakes_are_placed_in_the_text() {
         for (text, expected) in [
-            ("fn bend(x: f32) -> f32 {\n  return y;\n}", "ST126 2:10"),
-            ("fn bend(x: f32) -> f32 {\n  return vec3f(x);\n}", "ST127 2:"),
-            ("fn normalize(x: f32) -> f32 { return x; }", "ST131 1:4"),
-            ("fn twice(x: f32) -> f32 { return x; }", "ST131 1:4"),
-            ("var<private> p: f32;\nfn bend() -> f32 { return p; }", "ST125 1:14"),
-            ("@group(0) @binding(0) var t: texture_2d<f32>;\nfn bend() -> f32 { return 1.0; }", "ST125 1:27"),
-            ("@fragment fn bend() -> @location(0) vec4f { return vec4f(); }", "ST125 1:14"),
-            ("fn bend(static: f32) -> f32 { return 1.0; }", "ST120 1:9"),
-            ("fn bend() { }", "ST135 1:4"),
-            ("const A = 1;", "ST121"),
-            ("fn bend(", "ST124"),
-            ("//! use: nothing\nfn bend() -> f32 { return 1.0; }", "ST128 1:10"),
-            ("", "ST121"),
+            ("fn bend(x: f32) -> f32 {\n  return y;\n}", "ST0126 2:10"),
+            ("fn bend(x: f32) -> f32 {\n  return vec3f(x);\n}", "ST0127 2:"),
+            ("fn normalize(x: f32) -> f32 { return x; }", "ST0131 1:4"),
+            ("fn twice(x: f32) -> f32 { return x; }", "ST0131 1:4"),
+            ("var<private> p: f32;\nfn bend() -> f32 { return p; }", "ST0125 1:14"),
+            ("@group(0) @binding(0) var t: texture_2d<f32>;\nfn bend() -> f32 { return 1.0; }", "ST0125 1:27"),
+            ("@fragment fn bend() -> @location(0) vec4f { return vec4f(); }", "ST0125 1:14"),
+            ("fn bend(static: f32) -> f32 { return 1.0; }", "ST0120 1:9"),
+            ("fn bend() { }", "ST0135 1:4"),
+            ("const A = 1;", "ST0121"),
+            ("fn bend(", "ST0124"),
+            ("//! use: nothing\nfn bend() -> f32 { return 1.0; }", "ST0128 1:10"),
+            ("", "ST0121"),
         ] {
             let found = run(text).unwrap_err();
             assert!(found[0].starts_with(expected), "{text}: {found:?}");
@@ -166,8 +166,8 @@ mod tests {
     #[test]
     fn hostile_texts_end_in_errors() {
         let nest = format!("fn bend() -> f32 {{ return {}1.0{}; }}", "(".repeat(5000), ")".repeat(5000));
-        assert!(run(&nest).unwrap_err()[0].starts_with("ST130"));
-        assert!(run(&" ".repeat(70_000)).unwrap_err()[0].starts_with("ST130"));
+        assert!(run(&nest).unwrap_err()[0].starts_with("ST0130"));
+        assert!(run(&" ".repeat(70_000)).unwrap_err()[0].starts_with("ST0130"));
         assert!(run(&format!("fn bend() -> f32 {{ return {}1.0; }}", "-".repeat(60_000))).is_err());
         assert!(run("/* fn bend() -> f32 { return 1.0; }").is_err());
         assert!(run("fn bend() -> f32 { return bend(); }").is_err());

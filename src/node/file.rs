@@ -79,7 +79,7 @@ impl NodeFile {
                 let (header, mut found) = header::parse(self.source(), true);
                 if !is_identifier(&self.kind) || is_reserved(&self.kind) {
                     let message = format!("`{}` cannot be the name of a WGSL function", self.kind);
-                    found.push(Diagnostic::error("ST109", message, Place::file(&*self.path)).help("rename the file"));
+                    found.push(Diagnostic::error("ST0109", message, Place::file(&*self.path)).help("rename the file"));
                 }
                 if found.is_empty() { Ok(Arc::new(header)) } else { Err(found) }
             })
@@ -125,7 +125,7 @@ pub(crate) fn resolve(
     let mut found = Vec::new();
     for (name, choice) in choices {
         let Some(option) = options.iter().find(|o| o.name == *name) else {
-            let mut error = Diagnostic::error("ST133", format!("there is no option `{name}`"), place.clone());
+            let mut error = Diagnostic::error("ST0133", format!("there is no option `{name}`"), place.clone());
             error.help = match did_you_mean(name, options.iter().map(|o| o.name.as_str())) {
                 Some(near) => Some(format!("did you mean `{near}`?")),
                 None if options.is_empty() => Some("it has no options".into()),
@@ -139,7 +139,7 @@ pub(crate) fn resolve(
         };
         if !option.choices.contains(choice) {
             let message = format!("`{choice}` is not a choice of option `{name}`");
-            let error = Diagnostic::error("ST133", message, place.clone());
+            let error = Diagnostic::error("ST0133", message, place.clone());
             found.push(error.help(format!("choices are {}", option.choices.join(", "))));
         }
     }
@@ -159,12 +159,12 @@ pub(crate) fn apply(report: &mut Report, options: &[OptionSpec], choices: &[(Str
         Some((&choice.1, &option.choices))
     });
     for error in errors {
-        report.error("ST110", error.range, error.message);
+        report.error("ST0110", error.range, error.message);
     }
     let (mut declarations, mistakes) = items::split(&kept.text);
     for (range, message) in mistakes {
         report
-            .error("ST124", kept.original_range(range), message)
+            .error("ST0124", kept.original_range(range), message)
             .help("a file holds fn, struct, const, alias, override and var declarations");
     }
     let mut edits = Vec::new();
@@ -219,7 +219,7 @@ pub(crate) fn define(
     let main = function(kind);
     if main.is_none() {
         report
-            .error("ST121", 0..0, format!("the file has no function `{kind}`"))
+            .error("ST0121", 0..0, format!("the file has no function `{kind}`"))
             .help("the function that the node stands for is named like the file");
     }
     let ambient = function(&format!("{kind}_ambient"));
@@ -231,7 +231,7 @@ pub(crate) fn define(
             && function.body.is_none()
         {
             let place = kept.original_range(declaration.name_range.clone());
-            report.error("ST123", place, format!("`{kind}` is inline but its body is not one `return`"));
+            report.error("ST0123", place, format!("`{kind}` is inline but its body is not one `return`"));
         }
     }
     generic(&mut report, header, &applied);
@@ -253,16 +253,16 @@ fn judge(report: &mut Report, applied: &Applied) {
     for (i, d) in declarations.iter().enumerate() {
         let place = kept.original_range(d.name_range.clone());
         if declarations[..i].iter().any(|e| e.name == d.name) {
-            report.error("ST104", place.clone(), format!("`{}` is declared twice", d.name));
+            report.error("ST0104", place.clone(), format!("`{}` is declared twice", d.name));
         }
         if is_reserved(&d.name) || !is_identifier(&d.name) {
-            report.error("ST120", place.clone(), format!("`{}` cannot be declared in WGSL", d.name));
+            report.error("ST0120", place.clone(), format!("`{}` cannot be declared in WGSL", d.name));
         }
         if d.entry {
-            report.error("ST125", place, format!("`{}` is an entry point; a node is a function", d.name));
+            report.error("ST0125", place, format!("`{}` is an entry point; a node is a function", d.name));
         } else if d.keyword == "var" || d.keyword == "override" {
             report
-                .error("ST125", place, format!("`{}` is a module-scope {}", d.name, d.keyword))
+                .error("ST0125", place, format!("`{}` is a module-scope {}", d.name, d.keyword))
                 .help("what a node needs comes in through its parameters");
         }
     }
@@ -274,7 +274,7 @@ fn generic(report: &mut Report, header: &Header, applied: &Applied) {
     match declarations.iter().find(|d| d.keyword == "alias" && d.name == "T") {
         None => {
             report
-                .error("ST122", 0..0, "a generic file has no `alias T`")
+                .error("ST0122", 0..0, "a generic file has no `alias T`")
                 .help(format!("add `alias T = {};` under the header", first.wgsl()));
         }
         Some(alias) => {
@@ -282,7 +282,7 @@ fn generic(report: &mut Report, header: &Header, applied: &Applied) {
             if crate::semantic::Shape::from_wgsl(&ty) != *first {
                 let place = kept.original_range(alias.name_range.clone());
                 report
-                    .error("ST122", place, format!("`T` is `{ty}`, the header's first width is `{}`", first.wgsl()));
+                    .error("ST0122", place, format!("`T` is `{ty}`, the header's first width is `{}`", first.wgsl()));
             }
         }
     }

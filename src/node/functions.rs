@@ -27,7 +27,7 @@ impl Reader<'_> {
         let at = |range| self.kept.original_range(range);
         let Some(signature) = signature(text, declaration) else {
             let message = format!("the signature of `{}` cannot be read", declaration.name);
-            report.error("ST124", at(declaration.name_range.clone()), message);
+            report.error("ST0124", at(declaration.name_range.clone()), message);
             return None;
         };
         let written = self.lines(report, declaration);
@@ -36,7 +36,7 @@ impl Reader<'_> {
         for line in written.iter().filter(|l| !l.output) {
             if lines.insert(&line.name, line).is_some() {
                 report
-                    .error("ST117", line.name_range.clone(), format!("`{}` has two lines", line.name))
+                    .error("ST0117", line.name_range.clone(), format!("`{}` has two lines", line.name))
                     .port(&line.name);
             }
         }
@@ -47,7 +47,7 @@ impl Reader<'_> {
         for (name, line) in lines {
             let near = crate::diagnostic::did_you_mean(name, signature.parameters.iter().map(|p| p.name.as_str()));
             report
-                .error("ST119", line.name_range.clone(), format!("`{}` takes no `{name}`", declaration.name))
+                .error("ST0119", line.name_range.clone(), format!("`{}` takes no `{name}`", declaration.name))
                 .suggest(near)
                 .port(name);
         }
@@ -99,13 +99,13 @@ impl Reader<'_> {
         let place = self.kept.original_range(declaration.name_range.clone());
         let lines: Vec<&PortLine> = written.iter().filter(|l| l.output).collect();
         let Some(result) = result else {
-            report.error("ST135", place, format!("`{}` returns nothing", declaration.name));
+            report.error("ST0135", place, format!("`{}` returns nothing", declaration.name));
             return (Vec::new(), None);
         };
         for (i, line) in lines.iter().enumerate() {
             if lines[..i].iter().any(|l| l.name == line.name) {
                 report
-                    .error("ST117", line.name_range.clone(), format!("`{}` has two lines", line.name))
+                    .error("ST0117", line.name_range.clone(), format!("`{}` has two lines", line.name))
                     .port(&line.name);
             }
         }
@@ -115,7 +115,7 @@ impl Reader<'_> {
             for line in &lines {
                 if fields.iter().all(|f| f.name != line.name) {
                     report
-                        .error("ST119", line.name_range.clone(), format!("`{result}` has no `{}`", line.name))
+                        .error("ST0119", line.name_range.clone(), format!("`{result}` has no `{}`", line.name))
                         .port(&line.name);
                 }
             }
@@ -127,12 +127,12 @@ impl Reader<'_> {
         }
         if self.strict && lines.is_empty() {
             report
-                .error("ST118", place.clone(), format!("what `{}` returns has no `/// ->` line", declaration.name))
+                .error("ST0118", place.clone(), format!("what `{}` returns has no `/// ->` line", declaration.name))
                 .help("add a line `/// -> name (meaning): What it is.`");
         }
         for extra in lines.iter().skip(1) {
             report
-                .error("ST119", extra.name_range.clone(), format!("`{}` returns one value", declaration.name))
+                .error("ST0119", extra.name_range.clone(), format!("`{}` returns one value", declaration.name))
                 .port(&extra.name);
         }
         let line = lines.first().copied();
@@ -149,7 +149,7 @@ impl Reader<'_> {
         if line.is_none() && self.strict {
             let place = self.kept.original_range(field.range.clone());
             report
-                .error("ST118", place, format!("`{}` has no port line", field.name))
+                .error("ST0118", place, format!("`{}` has no port line", field.name))
                 .help(format!("add a line `/// {} (meaning; = default): What it does.`", field.name))
                 .port(&field.name);
             return None;
@@ -161,7 +161,7 @@ impl Reader<'_> {
         if is_reserved(&field.name) {
             let place = line.map_or_else(|| self.kept.original_range(field.range.clone()), |l| l.name_range.clone());
             report
-                .error("ST120", place, format!("`{}` is a word that WGSL keeps for itself", field.name))
+                .error("ST0120", place, format!("`{}` is a word that WGSL keeps for itself", field.name))
                 .port(&field.name);
         }
         let mut shape = Shape::from_wgsl(&field.ty);
@@ -182,7 +182,7 @@ impl Reader<'_> {
         };
         if !carries(&shape, line.meaning.kind) {
             let message = format!("a `{}` cannot carry a {}", field.ty, line.meaning.kind.word());
-            report.error("ST136", line.meaning_range.clone(), message).port(&line.name);
+            report.error("ST0136", line.meaning_range.clone(), message).port(&line.name);
         }
         self.default(report, line, &shape);
         Some(Port {
@@ -201,7 +201,7 @@ impl Reader<'_> {
             Some((Default::Value(value), place)) => {
                 if !value.fits(shape) {
                     let message = format!("`{value}` does not fit a `{}`", shape.wgsl());
-                    report.error("ST114", place.clone(), message).port(&line.name);
+                    report.error("ST0114", place.clone(), message).port(&line.name);
                 }
                 if let Value::Numbers(numbers) = value
                     && numbers
@@ -209,14 +209,14 @@ impl Reader<'_> {
                         .any(|n| line.range.0.is_some_and(|low| *n < low) || line.range.1.is_some_and(|high| *n > high))
                 {
                     let message = format!("the default `{value}` lies outside the range");
-                    report.error("ST116", place.clone(), message).port(&line.name);
+                    report.error("ST0116", place.clone(), message).port(&line.name);
                 }
             }
             Some((Default::Source(name), place)) => {
                 if let Some(source) = source(name).filter(|s| s.ty.shape != *shape) {
                     let message =
                         format!("`@{name}` is a `{}`, the port a `{}`", source.ty.shape.wgsl(), shape.wgsl());
-                    report.error("ST115", place.clone(), message).port(&line.name);
+                    report.error("ST0115", place.clone(), message).port(&line.name);
                 }
             }
             None => {
@@ -225,7 +225,7 @@ impl Reader<'_> {
                     || self.header.samplers.iter().any(|s| s.port == line.name);
                 if line.hidden && !supplied {
                     report
-                        .error("ST137", line.name_range.clone(), format!("`{}` is hidden and has no default", line.name))
+                        .error("ST0137", line.name_range.clone(), format!("`{}` is hidden and has no default", line.name))
                         .help("only spaces, maps and samplers with a `sampler` line are supplied")
                         .port(&line.name);
                 }

@@ -92,14 +92,14 @@ impl PassFile {
             };
             if known {
                 if seen.contains(&key.text) {
-                    report.error("ST104", key.range(), format!("`{}` is said twice", key.text));
+                    report.error("ST0104", key.range(), format!("`{}` is said twice", key.text));
                 } else {
                     seen.push(key.text);
                     pass.line(&mut report, &words, value);
                 }
             } else if words.len() == 1 && key.text.bytes().all(|b| b.is_ascii_lowercase() || b == b'_') {
                 report
-                    .error("ST101", key.range(), format!("`{}` is not a key of pass headers", key.text))
+                    .error("ST0101", key.range(), format!("`{}` is not a key of pass headers", key.text))
                     .suggest(did_you_mean(key.text, KEYS.iter().copied()));
             } else {
                 pass.describe(line);
@@ -107,7 +107,7 @@ impl PassFile {
         }
         if !seen.contains(&"kind") {
             report
-                .error("ST138", 0..0, "the header says no kind")
+                .error("ST0138", 0..0, "the header says no kind")
                 .help("add a line `//! kind: geometry`, `//! kind: image` or `//! kind: mip`");
         }
         pass.judge_skip(&mut report);
@@ -125,7 +125,7 @@ impl PassFile {
         let alternatives = |report: &mut Report| -> Vec<String> {
             let parts = value.split('|');
             for part in parts.iter().filter(|p| p.text.is_empty()) {
-                report.error("ST138", part.range(), "an empty alternative");
+                report.error("ST0138", part.range(), "an empty alternative");
             }
             parts.iter().map(|p| p.text.to_owned()).collect()
         };
@@ -137,7 +137,7 @@ impl PassFile {
                     "mip" => PassKind::Mip,
                     other => {
                         report
-                            .error("ST138", value.range(), format!("`{other}` is not a kind of pass"))
+                            .error("ST0138", value.range(), format!("`{other}` is not a kind of pass"))
                             .help("kinds are geometry, image, mip");
                         return;
                     }
@@ -149,7 +149,7 @@ impl PassFile {
             "axes" => {
                 self.axes = alternatives(report);
                 if self.axes.iter().any(|a| a != "x" && a != "y") {
-                    report.error("ST138", value.range(), "axes are x and y");
+                    report.error("ST0138", value.range(), "axes are x and y");
                 }
             }
             "clear" => {
@@ -158,7 +158,7 @@ impl PassFile {
                 match numbers.collect::<Result<Vec<f64>, _>>() {
                     Ok(n) if (1..=4).contains(&n.len()) && n.iter().all(|x| x.is_finite()) => self.clear = n,
                     _ => {
-                        report.error("ST138", value.range(), "`clear` takes one to four numbers");
+                        report.error("ST0138", value.range(), "`clear` takes one to four numbers");
                     }
                 }
             }
@@ -167,7 +167,7 @@ impl PassFile {
                     self.skip = Some(Skip { option: option.text.to_owned(), value: value.text.to_owned() });
                 }
                 None => {
-                    report.error("ST138", value.range(), "`skip` reads `OPTION == CHOICE`");
+                    report.error("ST0138", value.range(), "`skip` reads `OPTION == CHOICE`");
                 }
             },
             _ => {}
@@ -179,10 +179,10 @@ impl PassFile {
         match self.options.iter().find(|o| o.name == skip.option) {
             Some(option) if option.choices.contains(&skip.value) => {}
             Some(_) => {
-                report.error("ST138", 0..0, format!("`{}` is not a choice of `{}`", skip.value, skip.option));
+                report.error("ST0138", 0..0, format!("`{}` is not a choice of `{}`", skip.value, skip.option));
             }
             None => {
-                report.error("ST107", 0..0, format!("`skip` names no option: `{}`", skip.option));
+                report.error("ST0107", 0..0, format!("`skip` names no option: `{}`", skip.option));
             }
         }
     }
@@ -206,7 +206,7 @@ impl PassFile {
         let applied = file::apply(&mut report, &self.options, &choices);
         for name in self.uses.iter().filter(|name| catalog.library(name).is_none()) {
             report
-                .error("ST128", 0..0, format!("there is no library `{name}`"))
+                .error("ST0128", 0..0, format!("there is no library `{name}`"))
                 .suggest(did_you_mean(name, catalog.library_names()));
         }
         if !report.found.is_empty() {
@@ -215,7 +215,7 @@ impl PassFile {
         let own = file::items_of(&applied);
         let entries: Vec<&str> = applied.declarations.iter().filter(|d| d.entry).map(|d| d.name.as_str()).collect();
         if entries.is_empty() {
-            report.error("ST121", 0..0, format!("the pass `{}` has no entry point", self.name));
+            report.error("ST0121", 0..0, format!("the pass `{}` has no entry point", self.name));
             return Err(report.found);
         }
         let items: Vec<&Item> = catalog.closure(&self.uses).into_iter().flat_map(|l| &l.items).chain(&own).collect();
@@ -296,10 +296,10 @@ fn unused() -> f32 { return 1.0; }
         let found = pass("//! kind: imge\n//! axs: x\n//! axes: z\n//! clear: a\n//! skip: a == b\n//! skip: a == c\n")
             .unwrap_err();
         let codes: Vec<&str> = found.iter().map(|f| &f[..5]).collect();
-        assert_eq!(codes, ["ST138", "ST101", "ST138", "ST138", "ST104", "ST107"], "{found:?}");
-        assert!(pass("").unwrap_err()[0].starts_with("ST138"));
+        assert_eq!(codes, ["ST0138", "ST0101", "ST0138", "ST0138", "ST0104", "ST0107"], "{found:?}");
+        assert!(pass("").unwrap_err()[0].starts_with("ST0138"));
         let p = pass(BLUR).unwrap();
-        assert_eq!(p.text(&Choices::new(), &Catalog::default()).unwrap_err()[0].code, "ST128");
+        assert_eq!(p.text(&Choices::new(), &Catalog::default()).unwrap_err()[0].code, "ST0128");
         let bad = Choices::from([("width".into(), "4".into()), ("wdth".into(), "3".into())]);
         assert_eq!(p.text(&bad, &Catalog::default()).unwrap_err().len(), 2);
     }

@@ -19,7 +19,7 @@ impl NodeFile {
     pub fn verify(&self, catalog: &Catalog) -> Vec<Diagnostic> {
         if let Some((range, message)) = guard(&self.source().text, MAX_FILE) {
             let mut report = Report::new(self.source());
-            report.error("ST130", range, message);
+            report.error("ST0130", range, message);
             return report.found;
         }
         let header = match self.header() {
@@ -86,7 +86,7 @@ impl Catalog {
                     Some(at) => Place::span(crate::diagnostic::Span::new(&header.source, at..at + name.len())),
                     None => Place::file(&header.source.name),
                 };
-                let mut error = Diagnostic::error("ST128", format!("there is no library `{name}`"), place);
+                let mut error = Diagnostic::error("ST0128", format!("there is no library `{name}`"), place);
                 error.help = crate::diagnostic::did_you_mean(name, self.library_names())
                     .map(|near| format!("did you mean `{near}`?"));
                 error
