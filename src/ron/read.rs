@@ -107,6 +107,11 @@ impl Reader<'_> {
         }
     }
 
+    /// Whether as many mistakes are known as are told of.
+    pub(super) fn is_full(&self) -> bool {
+        self.diagnostics.len() >= MAX_ERRORS
+    }
+
     pub(super) fn report(&mut self, mistake: Mistake) {
         match self.diagnostics.len() {
             n if n < MAX_ERRORS => self.diagnostics.push(diagnose(self.source, mistake)),

@@ -2,6 +2,7 @@
 
 use std::ops::Range;
 
+use super::MAX_ERRORS;
 use super::read::{Mistake, Reader};
 use super::scan::fatal;
 
@@ -69,6 +70,13 @@ impl Reader<'_> {
                 Err(mistake) if mistake.fatal => return Err(mistake),
                 Err(mistake) => {
                     self.report(mistake);
+                    if self.is_full() {
+                        // A text with nothing but mistakes is not worth reading to its end.
+                        let message = format!(
+                            "{MAX_ERRORS} mistakes so far; the rest of the file was not read"
+                        );
+                        return Err(fatal("ST0012", message, self.at..self.at));
+                    }
                     self.recover()?;
                 }
             }
