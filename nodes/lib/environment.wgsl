@@ -25,10 +25,8 @@ fn environment_radiance(
 /// is, already multiplied by the cosine lobe's pi, 2 pi / 3, pi / 4 (Ramamoorthi and Hanrahan 2001, equations 3 and 11).
 fn environment_irradiance(harmonics: array<vec4f, 9>, normal: vec3f) -> vec3f {
     let n = normal;
-    let first = 0.28209479 * harmonics[0]
-        + 0.48860251 * (n.y * harmonics[1] + n.z * harmonics[2] + n.x * harmonics[3]);
-    let second = 1.09254843 * (n.x * n.y * harmonics[4] + n.y * n.z * harmonics[5] + n.x * n.z * harmonics[7])
-        + 0.31539157 * (3.0 * n.z * n.z - 1.0) * harmonics[6]
-        + 0.54627421 * (n.x * n.x - n.y * n.y) * harmonics[8];
+    let first = harmonics[0] + n.y * harmonics[1] + n.z * harmonics[2] + n.x * harmonics[3];
+    let second = n.x * n.y * harmonics[4] + n.y * n.z * harmonics[5] + (3.0 * n.z * n.z - 1.0) * harmonics[6]
+        + n.x * n.z * harmonics[7] + (n.x * n.x - n.y * n.y) * harmonics[8];
     return max((first + second).rgb, vec3f(0.0));
 }

@@ -13,11 +13,13 @@ use crate::diagnostic::{Diagnostic, Place, SourceText, did_you_mean};
 /// What a pass runs over.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum PassKind {
-    /// The objects of the scene.
+    /// The objects of the scene, drawn from the light. Group 0 binding 0: `LightSpace`; group 1 binding 0: the object
+    /// block; vertex location 0: object-space position. A colour target gets a depth buffer beside it.
     Geometry,
-    /// Every texel of an image.
+    /// Every texel of an image: a full-screen triangle that reads group 0 binding 0 (`texture_2d<f32>`) and writes a
+    /// texture of the same size and format.
     Image,
-    /// Every texel of every mip level but the first.
+    /// Every texel of every mip level but the first: as an image pass, but from each level of a texture to the next.
     Mip,
 }
 

@@ -88,11 +88,6 @@ fn steps(from: &Type) -> Vec<(u32, Step)> {
         Kind::Scalar if width == 1 => add(0, "vec3f($)", "color", Meaning { kind: Kind::Color, ..m }, 3),
         _ => {}
     }
-    // An image read without decoding may hold directions.
-    if m == Meaning::of(Kind::Color) && width == 3 {
-        let to = Meaning { frame: Frame::Tangent, encoding: Encoding::Signed01, ..m };
-        out.push((ASSUME, Step { template: "", to: Type::new(to, Shape::F32(3)), label: "" }));
-    }
     if m.encoding == Encoding::Signed01 && matches!(m.kind, Kind::Direction | Kind::Normal) && width == 3 {
         add(1, "($ * 2.0 - 1.0)", "signed", Meaning { encoding: Encoding::Linear, length: Length::Near, ..m }, 3);
     }
@@ -101,6 +96,11 @@ fn steps(from: &Type) -> Vec<(u32, Step)> {
         for quantity in [Quantity::Reflectance, Quantity::Emission] {
             add(0, "", "", Meaning { quantity, ..m }, width);
         }
+    }
+    // An image read without decoding may hold directions.
+    if m == Meaning::of(Kind::Color) && width == 3 {
+        let to = Meaning { frame: Frame::Tangent, encoding: Encoding::Signed01, ..m };
+        out.push((ASSUME, Step { template: "", to: Type::new(to, Shape::F32(3)), label: "" }));
     }
     for (cost, step) in assumptions(m, width) {
         out.push((cost, step));
