@@ -324,7 +324,7 @@ fn port_and_text_mistakes() {
         ),
         ("-> Result {", "{", "ST135 glow: "),
         ("r *= tint;", "r *= tnt;", "ST126 tnt: "),
-        ("r *= tint;", "r = 1;", "ST126 "),
+        ("r *= tint;", "r = 1;", "ST127 1: "),
         ("irradiance * twice", "irradiance + twice", ""),
         ("return emission;", "return 1.0;", "ST127 "),
     ] {
