@@ -67,6 +67,9 @@ impl Kept {
     }
 }
 
+/// The choice made for an option, and all that it could be.
+pub(crate) type Lookup<'f, 'a> = &'f dyn Fn(&str) -> Option<(&'a str, &'a [String])>;
+
 struct Block {
     start: Range<usize>,
     /// Whether the text around the block is kept.
@@ -80,10 +83,7 @@ struct Block {
 
 /// Applies the conditions of `text`. `choice` gives the choice made for an option and all that it could be; every
 /// name and every alternative is checked against it, also in dropped text.
-pub(crate) fn apply<'a>(
-    text: &str,
-    choice: &dyn Fn(&str) -> Option<(&'a str, &'a [String])>,
-) -> (Kept, Vec<ConditionError>) {
+pub(crate) fn apply<'a>(text: &str, choice: Lookup<'_, 'a>) -> (Kept, Vec<ConditionError>) {
     let mut kept = Kept {
         text: String::with_capacity(text.len()),
         runs: Vec::new(),
@@ -140,7 +140,7 @@ fn step<'a>(
     directive: &str,
     range: Range<usize>,
     blocks: &mut Vec<Block>,
-    choice: &dyn Fn(&str) -> Option<(&'a str, &'a [String])>,
+    choice: Lookup<'_, 'a>,
     errors: &mut Vec<ConditionError>,
 ) {
     let mut fail = |message: String| {
@@ -206,10 +206,7 @@ fn step<'a>(
     }
 }
 
-fn evaluate<'a>(
-    condition: &str,
-    choice: &dyn Fn(&str) -> Option<(&'a str, &'a [String])>,
-) -> Result<bool, String> {
+fn evaluate<'a>(condition: &str, choice: Lookup<'_, 'a>) -> Result<bool, String> {
     let (name, equal, alternatives) = match (condition.split_once("=="), condition.split_once("!="))
     {
         (Some((n, a)), None) => (n.trim(), true, a),

@@ -72,7 +72,7 @@ fn read(
     };
     let Some(main) = functions()
         .find(|d| d.name == name)
-        .or_else(|| functions().last())
+        .or_else(|| functions().next_back())
     else {
         if report.found.is_empty() {
             report

@@ -212,7 +212,7 @@ pub(crate) fn texture<'a>(
     mentioned: &mut Vec<Piece<'a>>,
 ) -> Vec<(String, String)> {
     let known =
-        |key: &str, value: &str| (key == "encoding").then(|| matches!(value, "srgb" | "linear"));
+        |key: &str, value: &str| (key == "encoding").then_some(matches!(value, "srgb" | "linear"));
     checked(report, value, mentioned, &known, "encoding")
 }
 

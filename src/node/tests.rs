@@ -326,7 +326,7 @@ fn port_and_text_mistakes() {
         ("r *= tint;", "r *= tnt;", "ST126 tnt: "),
         ("r *= tint;", "r = 1;", "ST127 1: "),
         ("irradiance * twice", "irradiance + twice", ""),
-        ("return emission;", "return 1.0;", "ST127 "),
+        ("return emission;", "return 1.0;", "ST126 1.0: "),
     ] {
         let found = altered(from, to);
         let met = found.iter().any(|f| f.starts_with(expected));
