@@ -505,8 +505,19 @@ fn embedded_files_are_sound() {
         found.extend(file.verify(&catalog));
     }
     for name in catalog.pass_names() {
-        if let Some(Err(errors)) = catalog.pass(name) {
-            found.extend(errors);
+        match catalog.pass(name) {
+            Some(Ok(pass)) => match pass.text(&Choices::new(), &catalog) {
+                Ok(text) => assert_eq!(
+                    naga::front::wgsl::parse_str(&text)
+                        .err()
+                        .map(|e| e.emit_to_string(&text)),
+                    None,
+                    "{name}"
+                ),
+                Err(errors) => found.extend(errors),
+            },
+            Some(Err(errors)) => found.extend(errors),
+            None => {}
         }
     }
     assert!(found.is_empty(), "{:#?}", show(&found));
