@@ -2,6 +2,7 @@
 
 use super::{Id, Instance, MapDemand, Op, Parameter, Program, Resource, sampler_settings};
 use crate::node::{Definition, Port, rename};
+use crate::module::stored;
 use crate::semantic::{Chain, Kind, Quantity, Shape, Value};
 use crate::weave::{Node, Wire, Woven, is_light, is_shadow};
 
@@ -298,19 +299,18 @@ fn result_name(context: &Context<'_>, function: &crate::node::Function, ambient:
 
 /// A value as WGSL.
 pub(crate) fn literal(shape: &Shape, port: &Port, value: &Value) -> String {
-    let scale = if port.unit == "deg" { std::f64::consts::PI / 180.0 } else { 1.0 };
+    let numbers = stored(value, shape, &port.unit);
     #[allow(clippy::cast_possible_truncation, reason = "WGSL has no 64-bit numbers")]
-    let float = |x: f64| format!("{:?}", (x * scale) as f32);
-    match (value, shape) {
-        (Value::Bool(b), _) => b.to_string(),
-        (Value::Numbers(n), Shape::I32) => format!("{}i", n[0]),
-        (Value::Numbers(n), Shape::U32) => format!("{}u", n[0]),
-        (Value::Numbers(n), Shape::F32(1)) => float(n[0]),
-        (Value::Numbers(n), _) => {
-            let parts: Vec<String> = n.iter().map(|x| float(*x)).collect();
+    let float = |x: f64| format!("{:?}", x as f32);
+    match (shape, numbers.as_slice()) {
+        (Shape::Bool, [x, ..]) => (*x != 0.0).to_string(),
+        (Shape::I32, [x, ..]) => format!("{x}i"),
+        (Shape::U32, [x, ..]) => format!("{x}u"),
+        (Shape::F32(1), [x, ..]) => float(*x),
+        _ => {
+            let parts: Vec<String> = numbers.iter().map(|x| float(*x)).collect();
             format!("{}({})", shape.wgsl(), parts.join(", "))
         }
-        (Value::Text(_), _) => "0.0".into(),
     }
 }
 
