@@ -24,7 +24,7 @@ pub(crate) fn bind(
         bindings.push(fixed(2, "parameters", Bound::Parameters));
     }
     let mut next = [1, 1, u32::from(parameters), 0];
-    let mut lights: Vec<(String, u8, &Resource)> = Vec::new();
+    let mut lights: Vec<(usize, u8, &Resource)> = Vec::new();
     let mut add = |group: usize, wanted: &str, resource: &Resource, bound: Bound, names: &mut Names| {
         let name = names.fresh(wanted);
         variables.insert(resource.clone(), name.clone());
@@ -39,20 +39,23 @@ pub(crate) fn bind(
                 let bound = Bound::Image { path: path.clone(), base: base.clone(), srgb: *srgb };
                 add(2, name, resource, bound, names);
             }
-            Resource::Sampler(settings) => add(2, &sampler_name(settings), resource, Bound::Sampler(settings.clone()), names),
-            Resource::Space(light) => lights.push((program.nodes[*light].id.clone(), 0, resource)),
-            Resource::Map(map) => lights.push((program.nodes[program.maps[*map].light].id.clone(), 1, resource)),
+            Resource::Sampler(settings) => {
+                add(2, &sampler_name(settings), resource, Bound::Sampler(settings.clone()), names)
+            }
+            Resource::Space(light) => lights.push((*light, 0, resource)),
+            Resource::Map(map) => lights.push((program.maps[*map].light, 1, resource)),
         }
     }
-    lights.sort();
+    lights.sort_by_key(|(light, order, resource)| (program.nodes[*light].id.clone(), *order, *resource));
     for (light, _, resource) in lights {
+        let info = &program.nodes[light];
         match resource {
             Resource::Map(map) => {
                 let index = maps.iter().find(|(old, _)| old == map).map_or(0, |(_, new)| *new);
                 let bound = Bound::Map { index, depth: program.maps[*map].depth };
-                add(3, &format!("{light}_map"), resource, bound, names);
+                add(3, &format!("{}_map", info.short), resource, bound, names);
             }
-            _ => add(3, &format!("{light}_space"), resource, Bound::Space { light: light.clone() }, names),
+            _ => add(3, &format!("{}_space", info.short), resource, Bound::Space { light: info.id.clone() }, names),
         }
     }
     bindings.sort_by_key(|b| (b.group, b.binding));
@@ -74,7 +77,8 @@ fn sampler_name(settings: &SamplerSettings) -> String {
         Address::Clamp => "clamp",
         Address::Mirror => "mirror",
     };
-    let anisotropy = if settings.anisotropy > 1 { format!("_anisotropic{}", settings.anisotropy) } else { String::new() };
+    let anisotropy =
+        if settings.anisotropy > 1 { format!("_anisotropic{}", settings.anisotropy) } else { String::new() };
     format!("{filter}_{address}{anisotropy}_sampler")
 }
 

@@ -11,6 +11,9 @@ use crate::module::Origin;
 use crate::program::{Expression, Id, Op, Program, Resource};
 use crate::semantic::Shape;
 
+/// Calls longer than this take a line for each argument.
+const LINE: usize = 92;
+
 /// A printed expression with the origins of its parts, by bytes from its start.
 #[derive(Clone, Default)]
 struct Printed {
@@ -26,7 +29,11 @@ impl Printed {
     fn append(&mut self, other: &Printed) {
         let shift = self.text.len();
         self.text.push_str(&other.text);
-        self.origins.extend(other.origins.iter().map(|o| Origin { start: o.start + shift, end: o.end + shift, ..o.clone() }));
+        self.origins.extend(other.origins.iter().map(|o| Origin {
+            start: o.start + shift,
+            end: o.end + shift,
+            ..o.clone()
+        }));
     }
 }
 
@@ -56,7 +63,8 @@ pub(crate) fn write_fragment(
     let mut printer = Printer { program, reached, functions, variables, members, names, printed };
     text.blank();
     text.line("@fragment");
-    let front_facing = if reached.inputs.contains("front_facing") { ", @builtin(front_facing) front_facing: bool" } else { "" };
+    let front_facing =
+        if reached.inputs.contains("front_facing") { ", @builtin(front_facing) front_facing: bool" } else { "" };
     text.line(&format!("fn fs_main(in: Varyings{front_facing}) -> @location(0) vec4f {{"));
     let mut last_comment = String::new();
     for &id in &reached.order {
@@ -108,10 +116,7 @@ impl Printer<'_> {
     }
 
     fn name(&mut self, expression: &Expression) -> String {
-        // The last part of `graph/node` says enough as long as it is free.
-        let short: Vec<&str> = expression.name.split("_under_").map(|part| part.rsplit('/').next().unwrap_or(part)).collect();
-        let short = sanitise(&short.join("_"));
-        self.names.fresh(&short)
+        self.names.fresh(&sanitise(&expression.name.replace("_under_", "_")))
     }
 
     fn print(&self, expression: &Expression) -> Printed {
@@ -139,9 +144,13 @@ impl Printer<'_> {
                 out.push(self.functions.names.get(function).map_or("", String::as_str));
                 out.push("(");
                 let inputs = &self.program.functions[*function].function().inputs;
+                let length: usize = (0..expression.operands.len()).filter_map(operand).map(|o| o.text.len() + 2).sum();
+                let broken = length + out.text.len() + expression.name.len() > LINE;
                 for i in 0..expression.operands.len() {
-                    if i > 0 {
-                        out.push(", ");
+                    match (broken, i) {
+                        (true, _) => out.push("\n        "),
+                        (false, 0) => {}
+                        (false, _) => out.push(" "),
                     }
                     let start = out.text.len();
                     if let Some(inner) = operand(i) {
@@ -152,8 +161,11 @@ impl Printer<'_> {
                         let node = self.program.nodes[*node].id.clone();
                         out.origins.push(Origin { start, end: out.text.len(), node, port });
                     }
+                    if broken || i + 1 < expression.operands.len() {
+                        out.push(",");
+                    }
                 }
-                out.push(")");
+                out.push(if broken { "\n    )" } else { ")" });
             }
             Op::Member(name) => {
                 if let Some(inner) = operand(0) {
@@ -186,13 +198,11 @@ impl Printer<'_> {
     }
 }
 
-/// `node, other node: Label`.
+/// `node, other node: Label`, and the light it is evaluated under.
 fn comment(program: &Program, expression: &Expression) -> String {
     let names: Vec<&str> = expression.origins.iter().map(|n| program.nodes[*n].id.as_str()).collect();
     let label = expression.origins.first().map_or("", |n| program.nodes[*n].label.as_str());
-    let under = expression.name.split_once("_under_").map(|(_, light)| light.rsplit_once('_').map_or(light, |(l, _)| l));
-    match under {
-        Some(light) => format!("{}: {label}, lit by {light}", names.join(", ")),
-        None => format!("{}: {label}", names.join(", ")),
-    }
+    let light = expression.light.map_or_else(String::new, |l| format!(", lit by {}", program.nodes[l].id));
+    // Names may hold what would end a comment's line only if nobody checked them; labels are one line by their format.
+    format!("{}: {label}{light}", names.join(", ")).replace(char::is_control, " ")
 }

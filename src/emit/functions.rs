@@ -2,9 +2,9 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
+use super::Reached;
 use super::names::Names;
 use super::text::Text;
-use super::Reached;
 use crate::node::{Catalog, Item, reachable, rename};
 use crate::program::{Op, Program, Resource};
 
@@ -69,7 +69,8 @@ pub(crate) fn gather(program: &Program, reached: &Reached, catalog: &Catalog, na
         let inline = instance.definition.header.inline && function.body.is_some();
         let kept: BTreeSet<&str> = if inline {
             let item = items.iter().find(|i| i.name == function.name);
-            let mentioned: Vec<&str> = item.map(|i| i.mentions.iter().map(String::as_str).collect()).unwrap_or_default();
+            let mentioned: Vec<&str> =
+                item.map(|i| i.mentions.iter().map(String::as_str).collect()).unwrap_or_default();
             roots.extend(&mentioned);
             reachable(&items, &mentioned).into_iter().filter(|n| *n != function.name).collect()
         } else {

@@ -93,7 +93,21 @@ pub fn emit(program: &Program, catalog: &Catalog, title: &str) -> (Module, Plan,
     let reached = reach(program, root);
     let (plan, maps, diagnostics) = plan_of(program, &reached, catalog);
     let mut names = Names::default();
-    for fixed in ["Frame", "Object", "Parameters", "Vertex", "Varyings", "frame", "object", "parameters", "vs_main", "fs_main", "in", "out", "world"] {
+    for fixed in [
+        "Frame",
+        "Object",
+        "Parameters",
+        "Vertex",
+        "Varyings",
+        "frame",
+        "object",
+        "parameters",
+        "vs_main",
+        "fs_main",
+        "in",
+        "out",
+        "world",
+    ] {
         names.claim(fixed);
     }
     let functions = functions::gather(program, &reached, catalog, &mut names);
@@ -161,18 +175,22 @@ fn parameters(program: &Program, reached: &Reached, plan: &Plan) -> (Vec<Paramet
             wanted.insert(index);
         }
     }
-    let spaces: BTreeSet<&String> = plan.lights.iter().filter_map(|l| l.space.as_ref()).flat_map(|s| &s.inputs).collect();
+    let spaces: BTreeSet<&String> =
+        plan.lights.iter().filter_map(|l| l.space.as_ref()).flat_map(|s| &s.inputs).collect();
     let path = |p: &crate::program::Parameter| format!("{}.{}", program.nodes[p.node].id, p.port);
     wanted.extend((0..program.parameters.len()).filter(|i| spaces.contains(&path(&program.parameters[*i]))));
 
     let mut order: Vec<usize> = wanted.into_iter().collect();
     // By node and port name, so that the block does not depend on the order of the graph.
     order.sort_by_key(|i| path(&program.parameters[*i]));
-    let shapes: Vec<Shape> = order.iter().map(|i| {
-        let parameter = &program.parameters[*i];
-        let port = program.nodes[parameter.node].definition.input(&parameter.port);
-        port.map_or(Shape::F32(1), |p| program.shape_of(parameter.node, p))
-    }).collect();
+    let shapes: Vec<Shape> = order
+        .iter()
+        .map(|i| {
+            let parameter = &program.parameters[*i];
+            let port = program.nodes[parameter.node].definition.input(&parameter.port);
+            port.map_or(Shape::F32(1), |p| program.shape_of(parameter.node, p))
+        })
+        .collect();
     let (offsets, bytes) = layout::offsets(shapes.iter());
     let mut members = vec![None; program.parameters.len()];
     let mut block = Names::default();
@@ -181,7 +199,7 @@ fn parameters(program: &Program, reached: &Reached, plan: &Plan) -> (Vec<Paramet
         let parameter = &program.parameters[index];
         let info = &program.nodes[parameter.node];
         let Some(port) = info.definition.input(&parameter.port) else { continue };
-        let name = block.fresh(&format!("{}_{}", info.id, parameter.port));
+        let name = block.fresh(&format!("{}_{}", info.short, parameter.port));
         members[index] = Some(name.clone());
         let default = match &port.default {
             Some(Default::Value(value)) => value.clone(),

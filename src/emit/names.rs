@@ -43,7 +43,11 @@ pub(crate) fn sanitise(name: &str) -> String {
         }
     }
     let trimmed = out.trim_matches('_');
-    if trimmed.is_empty() || trimmed.starts_with(|c: char| c.is_ascii_digit()) { format!("n{trimmed}") } else { trimmed.to_owned() }
+    if trimmed.is_empty() || trimmed.starts_with(|c: char| c.is_ascii_digit()) {
+        format!("n{trimmed}")
+    } else {
+        trimmed.to_owned()
+    }
 }
 
 fn is_taken_by_wgsl(name: &str) -> bool {
@@ -52,11 +56,76 @@ fn is_taken_by_wgsl(name: &str) -> bool {
 
 /// Predeclared functions and types that a name of ours must not shadow.
 const BUILTINS: &[&str] = &[
-    "abs", "acos", "acosh", "all", "any", "array", "asin", "asinh", "atan", "atan2", "atanh", "atomic", "bitcast", "bool", "ceil",
-    "clamp", "cos", "cosh", "cross", "degrees", "determinant", "distance", "dot", "dpdx", "dpdy", "exp", "exp2", "f16",
-    "f32", "floor", "fma", "fract", "frexp", "fwidth", "i32", "ldexp", "length", "log", "log2", "max", "min", "mix",
-    "modf", "normalize", "pow", "ptr", "radians", "reflect", "refract", "round", "sampler", "saturate", "select", "sign", "sin", "sinh",
-    "smoothstep", "sqrt", "step", "tan", "tanh", "transpose", "trunc", "u32", "vec2f", "vec3f", "vec4f", "mat2x2f", "mat3x3f", "mat4x4f",
+    "abs",
+    "acos",
+    "acosh",
+    "all",
+    "any",
+    "array",
+    "asin",
+    "asinh",
+    "atan",
+    "atan2",
+    "atanh",
+    "atomic",
+    "bitcast",
+    "bool",
+    "ceil",
+    "clamp",
+    "cos",
+    "cosh",
+    "cross",
+    "degrees",
+    "determinant",
+    "distance",
+    "dot",
+    "dpdx",
+    "dpdy",
+    "exp",
+    "exp2",
+    "f16",
+    "f32",
+    "floor",
+    "fma",
+    "fract",
+    "frexp",
+    "fwidth",
+    "i32",
+    "ldexp",
+    "length",
+    "log",
+    "log2",
+    "max",
+    "min",
+    "mix",
+    "modf",
+    "normalize",
+    "pow",
+    "ptr",
+    "radians",
+    "reflect",
+    "refract",
+    "round",
+    "sampler",
+    "saturate",
+    "select",
+    "sign",
+    "sin",
+    "sinh",
+    "smoothstep",
+    "sqrt",
+    "step",
+    "tan",
+    "tanh",
+    "transpose",
+    "trunc",
+    "u32",
+    "vec2f",
+    "vec3f",
+    "vec4f",
+    "mat2x2f",
+    "mat3x3f",
+    "mat4x4f",
 ];
 
 #[cfg(test)]

@@ -10,7 +10,9 @@ pub(crate) fn varying(varying: Varying) -> (&'static str, &'static str, &'static
     match varying {
         Varying::PositionWorld => ("position_world", "vec3f", "world.xyz"),
         Varying::PositionObject => ("position_object", "vec3f", "in.position"),
-        Varying::NormalWorld => ("normal_world", "vec3f", "normalize((vec4f(in.normal, 0.0) * object.world_to_object).xyz)"),
+        Varying::NormalWorld => {
+            ("normal_world", "vec3f", "normalize((vec4f(in.normal, 0.0) * object.world_to_object).xyz)")
+        }
         Varying::NormalObject => ("normal_object", "vec3f", "in.normal"),
         Varying::TangentWorld => (
             "tangent_world",

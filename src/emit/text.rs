@@ -125,7 +125,8 @@ mod tests {
 
     #[test]
     fn slots_know_their_surroundings() {
-        let alone: Vec<bool> = parts("f($0, $1 * 2.0)").filter_map(|p| if let Part::Slot(_, a) = p { Some(a) } else { None }).collect();
+        let alone: Vec<bool> =
+            parts("f($0, $1 * 2.0)").filter_map(|p| if let Part::Slot(_, a) = p { Some(a) } else { None }).collect();
         assert_eq!(alone, [true, false]);
         assert_eq!(slots("$0 * $0 + $10", 0), 2);
         assert_eq!(slots("$0 * $0 + $10", 10), 1);

@@ -28,7 +28,8 @@ pub fn plan(program: &Program, used: &[usize], lights: &[usize], catalog: &Catal
                 Some(Ok(file)) => expand(file, arguments, demand, program, catalog, &mut passes, &mut out),
                 Some(Err(mut found)) => out.append(&mut found),
                 None => {
-                    let message = format!("`{}` asks for the pass `{name}`, and there is none", program.nodes[demand.node].id);
+                    let message =
+                        format!("`{}` asks for the pass `{name}`, and there is none", program.nodes[demand.node].id);
                     let names: Vec<String> = catalog.pass_names().map(|n| format!("`{n}`")).collect();
                     let help = format!("the passes are {}", names.join(", "));
                     out.push(Diagnostic::error("ST0300", message, place(program, demand)).help(help));
@@ -82,6 +83,13 @@ fn expand(
             None | Some("auto") => file.targets.clone(),
             Some(format) => vec![format.to_owned()],
         };
-        passes.push(Pass { name: file.name.clone(), kind: file.kind, choices: chosen, wgsl, targets, clear: file.clear.clone() });
+        passes.push(Pass {
+            name: file.name.clone(),
+            kind: file.kind,
+            choices: chosen,
+            wgsl,
+            targets,
+            clear: file.clear.clone(),
+        });
     }
 }

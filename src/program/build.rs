@@ -6,16 +6,23 @@ use crate::node::Definition;
 use crate::semantic::Quantity;
 use crate::weave::{Root, Wire, Woven, is_light, is_lit, is_shadow, is_surface};
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// The program of a woven tree. With `bake`, parameters become constants.
 pub fn build(woven: &Woven, bake: bool) -> Program {
     let mut program = Program { bake, ..Program::default() };
+    let mut count: BTreeMap<&str, u32> = BTreeMap::new();
+    let last = |id: &'_ str| id.rfind('/').map_or(0, |at| at + 1);
+    for node in &woven.nodes {
+        *count.entry(&node.id[last(&node.id)..]).or_default() += 1;
+    }
+    let short = |id: &str| if count[&id[last(id)..]] == 1 { id[last(id)..].to_owned() } else { id.to_owned() };
     program.nodes = woven
         .nodes
         .iter()
         .map(|n| NodeInfo {
             id: n.id.clone(),
+            short: short(&n.id),
             label: n.definition.header.label.clone(),
             definition: n.definition.clone(),
             generic: n.generic.clone(),
@@ -52,7 +59,9 @@ fn evaluate(program: &mut Program, woven: &Woven, worth: &[Worth], index: usize)
     let combines = takes_surfaces(definition);
     for light in lights {
         let base_is_lit = || {
-            node.inputs.values().any(|w| matches!(w, Wire::Output { node, .. } if worth[*node].lit.contains_key(&light)))
+            node.inputs
+                .values()
+                .any(|w| matches!(w, Wire::Output { node, .. } if worth[*node].lit.contains_key(&light)))
         };
         if depends || (combines && base_is_lit()) {
             if let Some(outputs) = program.call(&at(Some(light)), false) {
@@ -111,7 +120,11 @@ fn root(program: &mut Program, woven: &Woven, worth: &[Worth]) -> Option<Id> {
             for shadow in shadows {
                 let scalar = woven.nodes[*shadow].definition.main.outputs[0].ty.shape.width() == Some(1);
                 if let Some(visibility) = worth[*shadow].lit.get(light).and_then(|o| o.first()) {
-                    terms.push(if scalar { program.template("vec3f($0)", vec![*visibility], "visibility", None) } else { *visibility });
+                    terms.push(if scalar {
+                        program.template("vec3f($0)", vec![*visibility], "visibility", None)
+                    } else {
+                        *visibility
+                    });
                 }
             }
             if terms.is_empty() {

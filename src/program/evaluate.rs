@@ -1,8 +1,8 @@
 //! Calls of node functions: arguments from wires, in the context of a light or of none.
 
 use super::{Id, Instance, MapDemand, Op, Parameter, Program, Resource, sampler_settings};
-use crate::node::{Definition, Port, rename};
 use crate::module::stored;
+use crate::node::{Definition, Port, rename};
 use crate::semantic::{Chain, Kind, Quantity, Shape, Value};
 use crate::weave::{Node, Wire, Woven, is_light, is_shadow};
 
@@ -65,7 +65,7 @@ impl Program {
         let inline = function.body.as_ref().filter(|_| node.definition.header.inline);
         let inline_text = inline.map(|body| placeholders(body, &instance));
         let index = self.function(instance);
-        let name = result_name(context, &function, ambient);
+        let name = self.result_name(context, &function, ambient);
         let id = match inline_text {
             Some(text) => {
                 let op = Op::Template { text: text.into(), function: Some(index) };
@@ -74,7 +74,9 @@ impl Program {
             None => self.add(Op::Call(index), arguments, &name, Some(context.index)),
         };
         // A node that hands on its input unchanged has no line of its own.
-        self.expressions[id.0 as usize].result = true;
+        let expression = &mut self.expressions[id.0 as usize];
+        expression.result = true;
+        expression.light = context.light.filter(|_| !is_light(&node.definition) && !is_shadow(&node.definition));
         if function.result_struct.is_none() {
             return Some(vec![id]);
         }
@@ -104,19 +106,20 @@ impl Program {
             }
             Wire::Irradiance => {
                 let light = context.light?;
-                let shadows: Vec<usize> = node.lights.get(&light)?.iter().copied().filter(|s| *s != context.index).collect();
+                let shadows: Vec<usize> =
+                    node.lights.get(&light)?.iter().copied().filter(|s| *s != context.index).collect();
                 self.irradiance(context, light, &shadows)
             }
             Wire::Value(value) => Some(self.parameter(&node.definition, context.index, port, value)),
             Wire::Source(name) => Some(self.provided(context, name, port)),
             Wire::Space => {
                 let light = context.light?;
-                let name = format!("{}_space", context.woven.nodes[light].id);
+                let name = format!("{}_space", self.nodes[light].short);
                 Some(self.add(Op::Resource(Resource::Space(light)), Vec::new(), &name, origin))
             }
             Wire::Map => {
                 let index = self.map(&node.definition, context.index, context.light?, port);
-                let name = format!("{}_map", context.woven.nodes[context.light?].id);
+                let name = format!("{}_map", self.nodes[context.light?].short);
                 Some(self.add(Op::Resource(Resource::Map(index)), Vec::new(), &name, origin))
             }
             Wire::Sampler => {
@@ -128,7 +131,7 @@ impl Program {
                 let spec = definition.header.textures.iter().find(|t| t.port == port.name);
                 let encoding = spec.and_then(|s| s.settings.iter().find(|(k, _)| k == "encoding"));
                 let srgb = encoding.is_some_and(|(_, v)| definition.setting(v) == "srgb");
-                let name = format!("{}_{}", node.id, port.name);
+                let name = format!("{}_{}", self.nodes[context.index].short, port.name);
                 let resource = Resource::Image { path: path.clone(), base: base.clone(), srgb, name: name.clone() };
                 Some(self.add(Op::Resource(resource), Vec::new(), &name, origin))
             }
@@ -166,7 +169,8 @@ impl Program {
                     rest = &rest[at + 1..];
                     continue;
                 }
-                let name_end = rest[at + 1..].find(|c: char| !c.is_alphanumeric() && c != '_').map_or(rest.len(), |e| at + 1 + e);
+                let name_end =
+                    rest[at + 1..].find(|c: char| !c.is_alphanumeric() && c != '_').map_or(rest.len(), |e| at + 1 + e);
                 let source = self.source(&rest[at + 1..name_end]);
                 let position = operands.iter().skip(1).position(|o| *o == source).map_or(operands.len(), |p| p + 1);
                 if position == operands.len() {
@@ -193,7 +197,7 @@ impl Program {
         for &shadow in shadows {
             factors.extend(here.worth[shadow].lit.get(&light).and_then(|o| o.first()));
         }
-        let name = format!("{}_irradiance", context.woven.nodes[light].id);
+        let name = format!("{}_irradiance", self.nodes[light].short);
         Some(self.fold("*", &factors, &name))
     }
 
@@ -214,7 +218,7 @@ impl Program {
             return self.add(Op::Literal(text.into()), Vec::new(), &port.name, Some(node));
         }
         let index = self.parameter_slot(node, port, value);
-        let name = format!("{}_{}", self.nodes[node].id, port.name);
+        let name = format!("{}_{}", self.nodes[node].short, port.name);
         self.add(Op::Parameter(index), Vec::new(), &name, Some(node))
     }
 
@@ -248,13 +252,36 @@ impl Program {
             .collect();
         let depth = port.ty.shape == Shape::DepthTexture;
         let filtered = !depth
-            && definition.inputs().any(|p| p.ty.shape == Shape::Sampler && sampler_settings(definition, &p.name).linear);
+            && definition
+                .inputs()
+                .any(|p| p.ty.shape == Shape::Sampler && sampler_settings(definition, &p.name).linear);
         if let Some(i) = self.maps.iter().position(|m| m.light == light && m.passes == passes && m.depth == depth) {
             self.maps[i].filtered |= filtered;
             return i;
         }
         self.maps.push(MapDemand { light, passes, depth, filtered, node, port: port.name.clone() });
         self.maps.len() - 1
+    }
+
+    /// A name for the result of a node: the node's, with the light's and the output's where they say more.
+    fn result_name(&self, context: &Context<'_>, function: &crate::node::Function, ambient: bool) -> String {
+        let node = context.node();
+        let mut name = self.nodes[context.index].short.clone();
+        if let Some(light) = context.light
+            && (!is_shadow(&node.definition) || node.lights.len() > 1)
+            && !is_light(&node.definition)
+        {
+            name = format!("{name}_under_{}", self.nodes[light].short);
+        }
+        if ambient {
+            name.push_str("_ambient");
+        }
+        match function.outputs.as_slice() {
+            [one] if function.result_struct.is_none() && !matches!(one.name.as_str(), "value" | "result") => {
+                if name.ends_with(&one.name) { name } else { format!("{name}_{}", one.name) }
+            }
+            _ => name,
+        }
     }
 }
 
@@ -276,27 +303,6 @@ fn placeholders(body: &str, instance: &Instance) -> String {
     })
 }
 
-/// A name for the result of a node: the node's, with the output's where that says more.
-fn result_name(context: &Context<'_>, function: &crate::node::Function, ambient: bool) -> String {
-    let node = context.node();
-    let mut name = node.id.clone();
-    if let Some(light) = context.light
-        && (!is_shadow(&node.definition) || node.lights.len() > 1)
-        && !is_light(&node.definition)
-    {
-        name = format!("{name}_under_{}", context.woven.nodes[light].id);
-    }
-    if ambient {
-        return format!("{name}_ambient");
-    }
-    match function.outputs.as_slice() {
-        [one] if function.result_struct.is_none() && !matches!(one.name.as_str(), "value" | "result") => {
-            if name.ends_with(&one.name) { name } else { format!("{name}_{}", one.name) }
-        }
-        _ => name,
-    }
-}
-
 /// A value as WGSL.
 pub(crate) fn literal(shape: &Shape, port: &Port, value: &Value) -> String {
     let numbers = stored(value, shape, &port.unit);
@@ -316,5 +322,9 @@ pub(crate) fn literal(shape: &Shape, port: &Port, value: &Value) -> String {
 
 /// Whether a node of this kind is worth a call at all outside a light.
 pub(crate) fn takes_surfaces(definition: &Definition) -> bool {
-    definition.main.inputs.iter().any(|p| p.ty.meaning.quantity == Quantity::Radiance && p.ty.meaning.kind == Kind::Color)
+    definition
+        .main
+        .inputs
+        .iter()
+        .any(|p| p.ty.meaning.quantity == Quantity::Radiance && p.ty.meaning.kind == Kind::Color)
 }

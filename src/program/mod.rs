@@ -107,6 +107,8 @@ pub struct Expression {
     pub port: Option<Rc<str>>,
     /// Whether it is the result of a node, and so gets a line of its own.
     pub result: bool,
+    /// The light that a node's result was evaluated under, where it is one of several terms.
+    pub light: Option<usize>,
 }
 
 /// A node function in use.
@@ -163,6 +165,8 @@ pub struct MapDemand {
 pub struct NodeInfo {
     /// Name among all graphs.
     pub id: String,
+    /// The last part of the name where that is unique, else all of it.
+    pub short: String,
     /// Label of its definition.
     pub label: String,
     /// Its definition.
@@ -203,7 +207,15 @@ impl Program {
         let id = Id(u32::try_from(self.expressions.len()).expect("bounded by the limits on nodes"));
         let (op, operands) = key.clone();
         let origins = origin.into_iter().collect();
-        self.expressions.push(Expression { op, operands, name: name.into(), origins, port: None, result: false });
+        self.expressions.push(Expression {
+            op,
+            operands,
+            name: name.into(),
+            origins,
+            port: None,
+            result: false,
+            light: None,
+        });
         self.known.insert(key, id);
         id
     }

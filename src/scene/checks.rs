@@ -30,7 +30,8 @@ pub(super) fn check(mesh: &Mesh) {
         let along_v = ((r - p) * f64::from(s.x) - (q - p) * f64::from(t.x)) / det;
         let tangent = mesh.tangents[a] + mesh.tangents[b] + mesh.tangents[c];
         let normal = mesh.normals[a] + mesh.normals[b] + mesh.normals[c];
-        let bitangent = normal.cross(tangent.truncate()).as_dvec3() * mid(mesh.tangents[a].w, mesh.tangents[b].w, mesh.tangents[c].w);
+        let bitangent = normal.cross(tangent.truncate()).as_dvec3()
+            * mid(mesh.tangents[a].w, mesh.tangents[b].w, mesh.tangents[c].w);
         assert!(along_u.dot(tangent.truncate().as_dvec3()) > 0.0, "tangent at {p}");
         assert!(along_v.dot(bitangent) > 0.0, "bitangent at {p}");
     }

@@ -205,7 +205,8 @@ f 4 3 2 1\nf 5 6 7 8\nf 1 2 6 5\nf -5 -6 -2 -1 # the top, from the end\nf 2 3 7 
             text += &format!("v {} {} {}\n", p.x, p.y, p.z);
         }
         // Weld the seam by position, as an exporter would.
-        let first = |i: u32| ball.positions.iter().position(|p| p.distance(ball.positions[i as usize]) < 1e-6).unwrap() + 1;
+        let first =
+            |i: u32| ball.positions.iter().position(|p| p.distance(ball.positions[i as usize]) < 1e-6).unwrap() + 1;
         for t in ball.indices.chunks(3) {
             text += &format!("f {} {} {}\n", first(t[0]), first(t[1]), first(t[2]));
         }
@@ -266,7 +267,15 @@ f 4 3 2 1\nf 5 6 7 8\nf 1 2 6 5\nf -5 -6 -2 -1 # the top, from the end\nf 2 3 7 
     fn hostile_texts_do_not_panic() {
         let big = "v 3e38 -3e38 3e38\nv -3e38 3e38 1e-45\nv 0 0 3e38\nf 1 2 3\n";
         assert!(read(big).unwrap().normals.iter().all(|n| n.is_normalized()));
-        for text in ["", "f", "f /// // /", "v", "\u{feff}v 1", "f 9223372036854775807 -9223372036854775808 1", "v 0 0 0\nf 1 1 1"] {
+        for text in [
+            "",
+            "f",
+            "f /// // /",
+            "v",
+            "\u{feff}v 1",
+            "f 9223372036854775807 -9223372036854775808 1",
+            "v 0 0 0\nf 1 1 1",
+        ] {
             assert!(read(text).is_err(), "{text:?}");
         }
         let many = format!("v 0 0 0\nf {}", "1 ".repeat(5000));

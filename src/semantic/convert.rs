@@ -127,7 +127,8 @@ fn assumptions(m: Meaning, width: u8) -> Vec<(u32, Step)> {
     let framed = |kind| matches!(kind, Kind::Vector | Kind::Point | Kind::Direction | Kind::Normal);
     let mut out = Vec::new();
     for &kind in kinds {
-        let frames: &[Frame] = if framed(kind) { &[Frame::World, Frame::Object, Frame::View, Frame::Tangent] } else { &[Frame::Any] };
+        let frames: &[Frame] =
+            if framed(kind) { &[Frame::World, Frame::Object, Frame::View, Frame::Tangent] } else { &[Frame::Any] };
         for &frame in frames {
             let to = Type::new(Meaning { frame, ..Meaning::of(kind) }, Shape::F32(width));
             out.push((ASSUME, Step { template: "", to, label: "" }));
@@ -257,7 +258,9 @@ impl Conversions {
             return self.chain(value, &Type::new(port.meaning, value.shape.clone())).map(|c| (*c).clone());
         }
         // One component is spread over an untyped port; a detour over colours would set an alpha of 1.
-        if let (Some(1), Some(width @ 2..=4), Kind::Number) = (value.shape.width(), port.shape.width(), port.meaning.kind) {
+        if let (Some(1), Some(width @ 2..=4), Kind::Number) =
+            (value.shape.width(), port.shape.width(), port.meaning.kind)
+        {
             let template = ["vec2f($)", "vec3f($)", "vec4f($)"][usize::from(width) - 2];
             let to = Type::new(port.meaning, port.shape.clone());
             return Some(Chain { cost: 3 * FORGET, steps: vec![Step { template, to, label: "wide" }] });
@@ -285,11 +288,19 @@ mod tests {
 
     #[test]
     fn normals_go_by_the_inverse_transpose_and_are_normalised_once() {
-        check(("normal object unit", 3), ("normal world unit", 3), Some(&["(vec4f($, 0.0) * @world_to_object).xyz", "normalize($)"]));
+        check(
+            ("normal object unit", 3),
+            ("normal world unit", 3),
+            Some(&["(vec4f($, 0.0) * @world_to_object).xyz", "normalize($)"]),
+        );
         check(("normal world near", 3), ("normal world unit", 3), Some(&["normalize($)"]));
         check(("normal world unit", 3), ("normal world unit", 3), Some(&[]));
         check(("normal world unit", 3), ("normal view unit", 3), Some(&["(@world_to_view * vec4f($, 0.0)).xyz"]));
-        check(("direction object unit", 3), ("direction view unit", 3), Some(&["(@object_to_world * vec4f($, 0.0)).xyz", "(@world_to_view * vec4f($, 0.0)).xyz", "normalize($)"]));
+        check(
+            ("direction object unit", 3),
+            ("direction view unit", 3),
+            Some(&["(@object_to_world * vec4f($, 0.0)).xyz", "(@world_to_view * vec4f($, 0.0)).xyz", "normalize($)"]),
+        );
     }
 
     #[test]

@@ -77,7 +77,9 @@ pub(crate) fn collect(graphs: &[NamedGraph], catalog: &Catalog, out: &mut Vec<Di
         }
         for (from, to, place) in bypass(&named.graph) {
             // A link to a node that is not there was reported when the graph was read.
-            let (Some(&f), Some(&t)) = (position.get(from.node.as_str()), position.get(to.node.as_str())) else { continue };
+            let (Some(&f), Some(&t)) = (position.get(from.node.as_str()), position.get(to.node.as_str())) else {
+                continue;
+            };
             let link = Link { from: f, from_port: from.port, to: t, to_port: to.port, place };
             if check_ports(&collected.nodes, &link, out) {
                 collected.links.push(link);
@@ -183,7 +185,8 @@ fn values(
 ) -> BTreeMap<String, Value> {
     let mut values = BTreeMap::new();
     let prefix = format!("{name}.");
-    let overrides = named.set.iter().filter_map(|(path, v)| Some((path.strip_prefix(&prefix)?, v, named.graph.place(name))));
+    let overrides =
+        named.set.iter().filter_map(|(path, v)| Some((path.strip_prefix(&prefix)?, v, named.graph.place(name))));
     let given = node.params.iter().map(|(port, v)| (port.as_str(), v, named.graph.param_place(name, port)));
     for (port, value, place) in given.chain(overrides) {
         let Some(input) = definition.input(port).filter(|p| !p.hidden) else {

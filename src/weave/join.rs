@@ -24,7 +24,10 @@ pub(crate) fn join(graphs: &[NamedGraph], nodes: &[Found], links: &mut Vec<Link>
     let lit: Vec<usize> = (0..nodes.len()).filter(|&i| is(i, is_lit) && !fed_by_lamp[i]).collect();
     for &to in &lit {
         for &from in ends.iter().filter(|&&from| nodes[from].graph != nodes[to].graph) {
-            let place = Place { file: graphs[nodes[from].graph].graph.source.as_ref().map(|s| s.name.clone()), ..Place::default() };
+            let place = Place {
+                file: graphs[nodes[from].graph].graph.source.as_ref().map(|s| s.name.clone()),
+                ..Place::default()
+            };
             let place = place.node(nodes[to].id.clone());
             links.push(Link { from, from_port: None, to, to_port: None, place });
         }

@@ -11,6 +11,7 @@ mod join;
 mod lights;
 mod resolve;
 mod root;
+mod spaces;
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::rc::Rc;
@@ -158,6 +159,7 @@ pub fn weave(graphs: &[NamedGraph], catalog: &Catalog, output: &Output) -> (Opti
     let lights = lights::follow(&collected, &mut diagnostics);
     let conversions = Conversions::default();
     let nodes = resolve::resolve(&collected, lights, &conversions, &mut diagnostics);
+    spaces::check(&nodes, &mut diagnostics);
     let root = root::choose(graphs, &collected, &nodes, output, &conversions, &mut diagnostics);
     // A node that could not be resolved is missing, so every index would be off: there is no partial result.
     match (nodes.into_iter().collect::<Option<Vec<Node>>>(), root) {

@@ -62,7 +62,8 @@ impl Work<'_> {
     fn run(self, out: &mut Vec<Diagnostic>) -> Option<Node> {
         let before = out.len();
         let mut inputs = BTreeMap::new();
-        let incoming: Vec<&Link> = self.collected.incoming[self.index].iter().map(|&l| &self.collected.links[l]).collect();
+        let incoming: Vec<&Link> =
+            self.collected.incoming[self.index].iter().map(|&l| &self.collected.links[l]).collect();
         // A neighbour with mistakes of its own has said so; what it would have fed is not reported as missing.
         let blind = incoming.iter().any(|l| self.done[l.from].is_none());
         self.pinned(&incoming, &mut inputs, out);
@@ -80,7 +81,8 @@ impl Work<'_> {
             return None;
         }
         let (id, place) = (self.found.id.clone(), self.found.place.clone());
-        let mut node = Node { id, definition: self.definition.clone(), generic, inputs, lights: self.lights.clone(), place };
+        let mut node =
+            Node { id, definition: self.definition.clone(), generic, inputs, lights: self.lights.clone(), place };
         self.widen(&mut node, out);
         Some(node)
     }
@@ -129,8 +131,13 @@ impl Work<'_> {
 
     fn mismatch(&self, link: &Link, port: &Port) -> Diagnostic {
         let from = self.done[link.from].as_ref().expect("checked by the caller");
-        let outputs: Vec<&Port> =
-            from.definition.main.outputs.iter().filter(|o| link.from_port.as_ref().is_none_or(|n| *n == o.name)).collect();
+        let outputs: Vec<&Port> = from
+            .definition
+            .main
+            .outputs
+            .iter()
+            .filter(|o| link.from_port.as_ref().is_none_or(|n| *n == o.name))
+            .collect();
         let offered = outputs.iter().map(|o| format!("`{}` is {}", o.name, from.output_type(o))).collect::<Vec<_>>();
         let message = format!(
             "`{}` cannot feed `{}.{}`: {}, and {} is wanted",
@@ -170,10 +177,8 @@ impl Work<'_> {
         if open.is_empty() {
             return;
         }
-        let offers: Vec<Vec<Option<Offer>>> = open
-            .iter()
-            .map(|l| free.iter().map(|p| self.offer(l.from, l.from_port.as_deref(), p)).collect())
-            .collect();
+        let offers: Vec<Vec<Option<Offer>>> =
+            open.iter().map(|l| free.iter().map(|p| self.offer(l.from, l.from_port.as_deref(), p)).collect()).collect();
         let price = |port: &Port, offer: &Option<Offer>| match offer {
             None => NEVER,
             Some(o) => {
@@ -196,7 +201,8 @@ impl Work<'_> {
         }
         let Some((total, chosen)) = assign(&cost) else {
             let names: Vec<String> = open.iter().map(|l| format!("`{}`", self.collected.nodes[l.from].id)).collect();
-            let message = format!("{} cannot all feed `{}`: it has too few fitting inputs", names.join(", "), self.found.id);
+            let message =
+                format!("{} cannot all feed `{}`: it has too few fitting inputs", names.join(", "), self.found.id);
             let help = format!("its free inputs are {}", list(free.iter().map(|p| format!("`{}` ({})", p.name, p.ty))));
             out.push(Diagnostic::error("ST0214", message, open[open.len() - 1].place.clone()).help(help));
             return;
@@ -235,11 +241,16 @@ impl Work<'_> {
 
     fn contributes_nothing(&self, link: &Link, free: &[&Port]) -> Diagnostic {
         let from = self.done[link.from].as_ref().expect("only resolved neighbours are open");
-        let offered = list(from.definition.main.outputs.iter().map(|o| format!("`{}` ({})", o.name, from.output_type(o))));
+        let offered =
+            list(from.definition.main.outputs.iter().map(|o| format!("`{}` ({})", o.name, from.output_type(o))));
         let message = format!("`{}` contributes nothing to `{}`", from.id, self.found.id);
         let mut error = Diagnostic::error("ST0215", message, link.place.clone()).note(format!("it gives {offered}"));
         let wanted = list(free.iter().map(|p| format!("`{}` ({})", p.name, p.ty)));
-        error = error.note(format!("`{}` has free: {}", self.found.id, if wanted.is_empty() { "nothing" } else { &wanted }));
+        error = error.note(format!(
+            "`{}` has free: {}",
+            self.found.id,
+            if wanted.is_empty() { "nothing" } else { &wanted }
+        ));
         let primary = from.definition.main.outputs.first().map(|o| from.output_type(o));
         let near = free.iter().find_map(|p| missing_conversion(primary.as_ref()?, &p.ty));
         error.help(near.unwrap_or_else(|| "remove the link, or put a node between them that converts".to_owned()))
@@ -266,14 +277,20 @@ impl Work<'_> {
         candidates.sort_by_key(|c| cost[row][*c]);
         for column in candidates {
             let Some(offer) = &offers[row][column] else { continue };
-            error = error.note(format!("candidate `{}` ({}), conversion cost {}", free[column].name, free[column].ty, offer.chain.cost));
+            error = error.note(format!(
+                "candidate `{}` ({}), conversion cost {}",
+                free[column].name, free[column].ty, offer.chain.cost
+            ));
         }
         let (source, target) = (short(&from.id), short(&self.found.id));
         let text = match &open[row].from_port {
             Some(port) => format!("{source}.{port}"),
             None => source.to_owned(),
         };
-        error.help(format!("pin one: `\"{text} -> {target}.{}\"` or `\"{text} -> {target}.{}\"`", free[one].name, free[other].name))
+        error.help(format!(
+            "pin one: `\"{text} -> {target}.{}\"` or `\"{text} -> {target}.{}\"`",
+            free[one].name, free[other].name
+        ))
     }
 
     /// Ports that nothing feeds yet.
@@ -337,12 +354,17 @@ impl Work<'_> {
                 next.iter().filter_map(|&n| Some((n, self.offer(n, None, port)?))).collect();
             offers.sort_by_key(|(n, o)| (!o.same_role, o.chain.cost, *n));
             if let [(node, best), others @ ..] = offers.as_slice() {
-                if let Some((rival, _)) = others.first().filter(|(_, o)| (o.same_role, o.chain.cost) == (best.same_role, best.chain.cost)) {
+                if let Some((rival, _)) =
+                    others.first().filter(|(_, o)| (o.same_role, o.chain.cost) == (best.same_role, best.chain.cost))
+                {
                     let names = [&self.collected.nodes[*node].id, &self.collected.nodes[*rival].id];
-                    let message = format!("`{}` or `{}` could feed `{}.{}`", names[0], names[1], self.found.id, port.name);
+                    let message =
+                        format!("`{}` or `{}` could feed `{}.{}`", names[0], names[1], self.found.id, port.name);
                     let pin = |n: &str| format!("`\"{} -> {}.{}\"`", short(n), short(&self.found.id), port.name);
                     let help = format!("pin one: {} or {}", pin(names[0]), pin(names[1]));
-                    return Err(Diagnostic::error("ST0216", message, self.found.place.clone().port(&port.name)).help(help));
+                    return Err(
+                        Diagnostic::error("ST0216", message, self.found.place.clone().port(&port.name)).help(help)
+                    );
                 }
                 return Ok(Some(self.wire(*node, best)));
             }
@@ -408,7 +430,12 @@ impl Work<'_> {
             match self.conversions.chain(&given, &wanted) {
                 Some(found) => *chain = found,
                 None => {
-                    let message = format!("`{}.{output}` is {given}, but `{}` works on {}", source.id, node.id, wanted.shape.wgsl());
+                    let message = format!(
+                        "`{}.{output}` is {given}, but `{}` works on {}",
+                        source.id,
+                        node.id,
+                        wanted.shape.wgsl()
+                    );
                     let help = "give all inputs of the node the same number of components (one alone is spread)";
                     out.push(Diagnostic::error("ST0218", message, node.place.clone().port(&port.name)).help(help));
                 }
@@ -427,7 +454,9 @@ fn missing_conversion(from: &Type, to: &Type) -> Option<String> {
     let wide = from.shape.width().unwrap_or(1);
     let narrow = to.shape.width().unwrap_or(1);
     let text = match (a.kind, b.kind) {
-        (Kind::Color, Kind::Scalar | Kind::Number) if narrow == 1 => "insert `luminance`, or `separate3` for one channel",
+        (Kind::Color, Kind::Scalar | Kind::Number) if narrow == 1 => {
+            "insert `luminance`, or `separate3` for one channel"
+        }
         (Kind::Point, Kind::Vector | Kind::Direction) => "insert `subtract` to say from which point it leads",
         (Kind::Scalar | Kind::Number, Kind::Bool) => "insert `compare` to say from which value it is true",
         (Kind::Color, Kind::Color) if a.quantity == Quantity::Radiance => {

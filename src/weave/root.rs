@@ -87,7 +87,8 @@ fn shadows_of(collected: &Collected, nodes: &[Option<Node>], light: usize) -> Ve
 }
 
 fn find_light(collected: &Collected, nodes: &[Option<Node>], name: &str, out: &mut Vec<Diagnostic>) -> Option<usize> {
-    let lights: Vec<usize> = (0..nodes.len()).filter(|i| nodes[*i].as_ref().is_some_and(|n| n.lights.contains_key(i))).collect();
+    let lights: Vec<usize> =
+        (0..nodes.len()).filter(|i| nodes[*i].as_ref().is_some_and(|n| n.lights.contains_key(i))).collect();
     let id = |i: &usize| collected.nodes[*i].id.as_str();
     let by = |test: &dyn Fn(&str) -> bool| {
         let found: Vec<usize> = lights.iter().copied().filter(|i| test(id(i))).collect();
@@ -116,9 +117,12 @@ fn seen(
     for (index, named) in graphs.iter().enumerate() {
         ends.extend(exports(named, index, collected, out)?);
     }
-    let is = |i: usize, what: fn(&crate::node::Definition) -> bool| collected.nodes[i].definition.as_deref().is_some_and(what);
+    let is = |i: usize, what: fn(&crate::node::Definition) -> bool| {
+        collected.nodes[i].definition.as_deref().is_some_and(what)
+    };
     let surfaces: Vec<&(usize, Option<String>)> = ends.iter().filter(|(i, _)| is(*i, is_surface)).collect();
-    let values: Vec<&(usize, Option<String>)> = ends.iter().filter(|(i, _)| !is(*i, is_surface) && !is(*i, is_lamp)).collect();
+    let values: Vec<&(usize, Option<String>)> =
+        ends.iter().filter(|(i, _)| !is(*i, is_surface) && !is(*i, is_lamp)).collect();
     let shown = if surfaces.is_empty() { &values } else { &surfaces };
     match shown[..] {
         [(node, port)] => {
@@ -133,7 +137,10 @@ fn seen(
         [(first, _), ..] => {
             let names: Vec<String> = shown.iter().map(|(i, _)| format!("`{}`", collected.nodes[*i].id)).collect();
             let message = format!("{} are all left without a follower: which one is seen?", names.join(", "));
-            let help = format!("say `output: \"{}\"`, or combine them with `mix_surface` or `add_surface`", collected.nodes[*first].id);
+            let help = format!(
+                "say `output: \"{}\"`, or combine them with `mix_surface` or `add_surface`",
+                collected.nodes[*first].id
+            );
             out.push(Diagnostic::error("ST0221", message, collected.nodes[*first].place.clone()).help(help));
             None
         }
@@ -141,13 +148,25 @@ fn seen(
 }
 
 /// The nodes that a graph exports: the one that it names, or those that feed nothing.
-fn exports(named: &NamedGraph, index: usize, collected: &Collected, out: &mut Vec<Diagnostic>) -> Option<Vec<(usize, Option<String>)>> {
+fn exports(
+    named: &NamedGraph,
+    index: usize,
+    collected: &Collected,
+    out: &mut Vec<Diagnostic>,
+) -> Option<Vec<(usize, Option<String>)>> {
     let own: Vec<usize> = (0..collected.nodes.len()).filter(|i| collected.nodes[*i].graph == index).collect();
     let feeds: std::collections::BTreeSet<usize> = collected.links.iter().map(|l| l.from).collect();
     let Some(end) = &named.graph.output else {
-        return Some(own.into_iter().filter(|i| !feeds.contains(i) || is_end_lamp(*i, index, collected)).map(|i| (i, None)).collect());
+        return Some(
+            own.into_iter()
+                .filter(|i| !feeds.contains(i) || is_end_lamp(*i, index, collected))
+                .map(|i| (i, None))
+                .collect(),
+        );
     };
-    let found = own.iter().copied().find(|i| super::lights::short(&collected.nodes[*i].id) == end.node || collected.nodes[*i].id.ends_with(&end.node));
+    let found = own.iter().copied().find(|i| {
+        super::lights::short(&collected.nodes[*i].id) == end.node || collected.nodes[*i].id.ends_with(&end.node)
+    });
     if found.is_none() {
         let message = format!("the graph's output `{end}` is not among its nodes");
         let help = "name a node that is there and not muted, or leave `output` out";
@@ -183,7 +202,11 @@ fn finish(
     let Some(output) = node.definition.main.outputs.iter().find(|o| port.is_none_or(|p| p == o.name)) else {
         let names: Vec<&str> = node.definition.main.outputs.iter().map(|o| o.name.as_str()).collect();
         let wanted = port.unwrap_or_default();
-        let error = Diagnostic::error("ST0222", format!("`{}` has no output `{wanted}`", node.id), collected.nodes[index].place.clone());
+        let error = Diagnostic::error(
+            "ST0222",
+            format!("`{}` has no output `{wanted}`", node.id),
+            collected.nodes[index].place.clone(),
+        );
         out.push(suggest(error, wanted, &names, "it has"));
         return None;
     };
@@ -199,7 +222,10 @@ fn finish(
         Some(4) => "$.xyz",
         _ => {
             let message = format!("`{}.{}` is {ty} and cannot be shown", node.id, output.name);
-            out.push(Diagnostic::error("ST0224", message, node.place.clone()).help("link it to a node that makes a colour of it"));
+            out.push(
+                Diagnostic::error("ST0224", message, node.place.clone())
+                    .help("link it to a node that makes a colour of it"),
+            );
             return None;
         }
     };
@@ -223,7 +249,9 @@ fn lamps_alone(
     if lights.is_empty() {
         if !collected.nodes.iter().any(|n| n.definition.is_none()) {
             let message = "there is nothing to see: the graph has no nodes";
-            out.push(Diagnostic::error("ST0225", message, Place::default()).help("add a surface node, such as `lambert`"));
+            out.push(
+                Diagnostic::error("ST0225", message, Place::default()).help("add a surface node, such as `lambert`"),
+            );
         }
         return None;
     }

@@ -62,7 +62,8 @@ impl Image {
         // Enough taps that every texel of the picture counts.
         let taps = (self.width.div_ceil(width)).max(self.height.div_ceil(height)).clamp(1, 64);
         Level::from_fn(width, height, |direction| {
-            let turned = DVec3::new(direction.x * cos - direction.z * sin, direction.y, direction.x * sin + direction.z * cos);
+            let turned =
+                DVec3::new(direction.x * cos - direction.z * sin, direction.y, direction.x * sin + direction.z * cos);
             let center = texcoord_of(turned);
             let mut sum = DVec3::ZERO;
             for j in 0..taps {
@@ -98,9 +99,8 @@ mod tests {
     #[test]
     fn a_png_is_linearised_and_lands_where_it_should() {
         // White at the right quarter of the picture, which is +x, on mid grey.
-        let picture = ::image::RgbImage::from_fn(64, 32, |x, _| {
-            ::image::Rgb([if (40..56).contains(&x) { 255 } else { 188 }; 3])
-        });
+        let picture =
+            ::image::RgbImage::from_fn(64, 32, |x, _| ::image::Rgb([if (40..56).contains(&x) { 255 } else { 188 }; 3]));
         let image = decode(&encode(&picture), &Place::default()).unwrap();
         let radiance = |rotation: f64, direction: DVec3| {
             let environment = Environment::Image { image: Default::default(), rotation, intensity: 2.0 };
@@ -116,7 +116,12 @@ mod tests {
 
     #[test]
     fn what_is_no_picture_is_said_to_be_none() {
-        for bytes in [&b""[..], b"not a picture", b"\x89PNG\r\n\x1a\n\0\0\0", b"#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 9999999 +X 9999999\n"] {
+        for bytes in [
+            &b""[..],
+            b"not a picture",
+            b"\x89PNG\r\n\x1a\n\0\0\0",
+            b"#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 9999999 +X 9999999\n",
+        ] {
             assert_eq!(decode(bytes, &Place::default()).unwrap_err().code, "ST0425");
         }
     }

@@ -4,8 +4,8 @@ use std::f64::consts::{PI, TAU};
 
 use glam::{DVec3, Vec2, Vec3, Vec4};
 
-use super::map::texcoord_of;
 use super::Level;
+use super::map::texcoord_of;
 
 /// Directions taken per texel.
 const SAMPLES: u32 = 48;
@@ -99,9 +99,8 @@ fn box_levels(base: Level, count: u32) -> Vec<Level> {
             let weight = |row: u32| (PI * (f64::from(row) + 0.5) / f64::from(last.height)).sin() as f32;
             let (upper, lower) = (weight(2 * y), weight(2 * y + 1));
             for x in 0..width {
-                let texel = |dx: u32, dy: u32| {
-                    Vec4::from_array(last.pixels[((2 * y + dy) * last.width + 2 * x + dx) as usize])
-                };
+                let texel =
+                    |dx: u32, dy: u32| Vec4::from_array(last.pixels[((2 * y + dy) * last.width + 2 * x + dx) as usize]);
                 let sum = (texel(0, 0) + texel(1, 0)) * upper + (texel(0, 1) + texel(1, 1)) * lower;
                 pixels.push((sum / (2.0 * (upper + lower))).to_array());
             }
