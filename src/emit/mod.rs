@@ -34,8 +34,6 @@ pub(crate) struct Reached {
     pub(crate) inputs: BTreeSet<&'static str>,
     pub(crate) functions: BTreeSet<usize>,
     pub(crate) resources: BTreeSet<Resource>,
-    pub(crate) frame: bool,
-    pub(crate) object: bool,
 }
 
 /// Follows operands from the root, without recursion.
@@ -47,9 +45,6 @@ fn reach(program: &Program, root: Id) -> Reached {
         inputs: BTreeSet::new(),
         functions: BTreeSet::new(),
         resources: BTreeSet::new(),
-        // The vertex stage needs both in any case.
-        frame: true,
-        object: true,
     };
     let mut seen = vec![false; program.expressions.len()];
     let mut open = vec![(root, false)];

@@ -89,19 +89,13 @@ pub(crate) fn is_atomic(text: &str) -> bool {
     let mut previous = b' ';
     for (i, c) in text.bytes().enumerate() {
         match c {
-            b'(' | b'[' => {
-                // A bracket that opens the text, or follows an operator, is a group: atomic as long as it lasts.
-                depth += 1;
-            }
+            b'(' | b'[' => depth += 1,
             b')' | b']' => depth -= 1,
             b' ' if depth == 0 => return false,
             b'-' | b'!' | b'~' | b'&' if depth == 0 && i == 0 => return false,
-            b'+' | b'*' | b'/' | b'%' | b'<' | b'>' | b'|' | b'^' if depth == 0 => {
-                // `array<vec4f, 9>` and exponents such as `1e+20` are no operators.
-                if !(c == b'+' && previous == b'e') {
-                    return false;
-                }
-            }
+            // A plus sign after an `e` is part of a number.
+            b'+' if depth == 0 && previous == b'e' => {}
+            b'+' | b'*' | b'/' | b'%' | b'<' | b'>' | b'|' | b'^' if depth == 0 => return false,
             _ => {}
         }
         previous = c;

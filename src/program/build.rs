@@ -63,10 +63,10 @@ fn evaluate(program: &mut Program, woven: &Woven, worth: &[Worth], index: usize)
                 .values()
                 .any(|w| matches!(w, Wire::Output { node, .. } if worth[*node].lit.contains_key(&light)))
         };
-        if depends || (combines && base_is_lit()) {
-            if let Some(outputs) = program.call(&at(Some(light)), false) {
-                result.lit.insert(light, outputs);
-            }
+        if (depends || (combines && base_is_lit()))
+            && let Some(outputs) = program.call(&at(Some(light)), false)
+        {
+            result.lit.insert(light, outputs);
         }
     }
     let ambient_base = || {

@@ -232,11 +232,14 @@ impl Reach {
     }
 }
 
+/// Value and port.
+type Pair = (Type, Type);
+
 /// The cheapest chains, remembered.
 #[derive(Default)]
 pub struct Conversions {
     reach: RefCell<HashMap<Type, Rc<Reach>>>,
-    chains: RefCell<HashMap<(Type, Type), Option<Rc<Chain>>>>,
+    chains: RefCell<HashMap<Pair, Option<Rc<Chain>>>>,
 }
 
 impl Conversions {

@@ -34,12 +34,14 @@ pub(crate) fn follow(collected: &Collected, out: &mut Vec<Diagnostic>) -> Lights
             }
         }
         if shadow {
-            if reached.is_empty() && definition.inputs().any(|p| needs_light(p)) {
+            if reached.is_empty() && definition.inputs().any(needs_light) {
                 let message = format!("the shadow `{}` is on no light", node.id);
                 let help = format!("link a light to it: `\"LIGHT -> {}\"`", short(&node.id));
                 out.push(Diagnostic::error("ST0211", message, node.place.clone()).help(help));
             }
-            reached.values_mut().for_each(|shadows| drop(shadows.insert(i)));
+            for shadows in reached.values_mut() {
+                shadows.insert(i);
+            }
         }
         lights[i] = reached;
     }

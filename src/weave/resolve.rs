@@ -311,7 +311,7 @@ impl Work<'_> {
                 Ok(Some(wire)) => drop(inputs.insert(port.name.clone(), wire)),
                 Ok(None) if blind => {}
                 Ok(None) => out.push(self.missing(port, incoming)),
-                Err(error) => out.push(error),
+                Err(error) => out.push(*error),
             }
         }
     }
@@ -334,7 +334,7 @@ impl Work<'_> {
     }
 
     /// The nearest level above the direct neighbours that can feed a port without default.
-    fn further_up(&self, port: &Port) -> Result<Option<Wire>, Diagnostic> {
+    fn further_up(&self, port: &Port) -> Result<Option<Wire>, Box<Diagnostic>> {
         if matches!(port.ty.meaning.kind, Kind::Number | Kind::Scalar | Kind::Bool | Kind::Texture) {
             return Ok(None);
         }
