@@ -61,7 +61,7 @@ pub fn from_obj(source: &Arc<SourceText>) -> Result<Mesh, Vec<Diagnostic>> {
     if mesh.indices.is_empty() {
         let place = Place::file(source.name.clone());
         return Err(vec![
-            Diagnostic::error("ST424", "the OBJ file has no face with an area", place)
+            Diagnostic::error("ST0424", "the OBJ file has no face with an area", place)
                 .help("export the model with its faces (lines that begin with `f`)"),
         ]);
     }
@@ -83,7 +83,7 @@ impl Reader<'_> {
         let full = [self.positions.len(), self.texcoords.len(), self.normals.len(), self.corners.len()];
         let outcome = outcome.and_then(|()| {
             if full.iter().any(|n| *n > MAX_OBJ_ELEMENTS) {
-                return Err(("ST423", format!("the OBJ file has more than {MAX_OBJ_ELEMENTS} elements of a kind")));
+                return Err(("ST0423", format!("the OBJ file has more than {MAX_OBJ_ELEMENTS} elements of a kind")));
             }
             Ok(())
         });
@@ -91,7 +91,7 @@ impl Reader<'_> {
             let lead = line.len() - line.trim_start().len();
             let span = Span::new(self.source, start + lead..start + line.trim_end().len().max(lead));
             self.errors.push(Diagnostic::error(code, message, Place::span(span)));
-            if code == "ST423" {
+            if code == "ST0423" {
                 self.positions.clear();
                 self.texcoords.clear();
                 self.normals.clear();
@@ -114,7 +114,7 @@ impl Reader<'_> {
         let mut polygon = Vec::new();
         for word in words {
             if polygon.len() == MAX_CORNERS {
-                return Err(("ST422", format!("a face has more than {MAX_CORNERS} corners")));
+                return Err(("ST0422", format!("a face has more than {MAX_CORNERS} corners")));
             }
             let mut parts = word.split('/');
             let mut index = |count: usize, what: &str| match parts.next() {
@@ -125,7 +125,7 @@ impl Reader<'_> {
             let texcoord = index(self.texcoords.len(), "texture coordinates (`vt`)")?;
             let normal = index(self.normals.len(), "normals (`vn`)")?;
             let Some(position) = position else {
-                return Err(("ST421", format!("the corner `{word}` names no position")));
+                return Err(("ST0421", format!("the corner `{word}` names no position")));
             };
             polygon.push(Corner {
                 position,
@@ -134,7 +134,7 @@ impl Reader<'_> {
             });
         }
         if polygon.len() < 3 {
-            return Err(("ST422", format!("a face needs at least 3 corners, this one has {}", polygon.len())));
+            return Err(("ST0422", format!("a face needs at least 3 corners, this one has {}", polygon.len())));
         }
         for pair in polygon[1..].windows(2) {
             self.corners.push([polygon[0], pair[0], pair[1]]);
@@ -153,23 +153,23 @@ fn numbers<'t, const N: usize>(
     for (slot, word) in result.iter_mut().zip(words) {
         match word.parse::<f32>() {
             Ok(x) if x.is_finite() => *slot = x.into(),
-            _ => return Err(("ST420", format!("`{word}` is not a finite number"))),
+            _ => return Err(("ST0420", format!("`{word}` is not a finite number"))),
         }
         count += 1;
     }
     if count < needed {
-        return Err(("ST420", format!("expected at least {needed} numbers, found {count}")));
+        return Err(("ST0420", format!("expected at least {needed} numbers, found {count}")));
     }
     Ok(result)
 }
 
 /// An index of the file to one from 0.
 fn resolve(text: &str, count: usize, what: &str) -> Result<usize, (&'static str, String)> {
-    let number: i64 = text.parse().map_err(|_| ("ST421", format!("`{text}` is not an index")))?;
+    let number: i64 = text.parse().map_err(|_| ("ST0421", format!("`{text}` is not an index")))?;
     let index = if number < 0 { count as i64 + number } else { number - 1 };
     match usize::try_from(index) {
         Ok(index) if index < count => Ok(index),
-        _ => Err(("ST421", format!("the index {number} is out of range: {count} {what} come before this line"))),
+        _ => Err(("ST0421", format!("the index {number} is out of range: {count} {what} come before this line"))),
     }
 }
 
@@ -250,14 +250,14 @@ f 4 3 2 1\nf 5 6 7 8\nf 1 2 6 5\nf -5 -6 -2 -1 # the top, from the end\nf 2 3 7 
         let errors = read(text).unwrap_err();
         let found: Vec<_> = errors.iter().map(|e| (e.code, e.place.span.as_ref().unwrap().line_column())).collect();
         let expected = [
-            ("ST420", (2, 1)),
-            ("ST420", (3, 1)),
-            ("ST420", (4, 1)),
-            ("ST421", (5, 1)),
-            ("ST421", (6, 1)),
-            ("ST421", (7, 1)),
-            ("ST421", (8, 1)),
-            ("ST421", (9, 3)),
+            ("ST0420", (2, 1)),
+            ("ST0420", (3, 1)),
+            ("ST0420", (4, 1)),
+            ("ST0421", (5, 1)),
+            ("ST0421", (6, 1)),
+            ("ST0421", (7, 1)),
+            ("ST0421", (8, 1)),
+            ("ST0421", (9, 3)),
         ];
         assert_eq!(found, expected);
     }
@@ -270,7 +270,7 @@ f 4 3 2 1\nf 5 6 7 8\nf 1 2 6 5\nf -5 -6 -2 -1 # the top, from the end\nf 2 3 7 
             assert!(read(text).is_err(), "{text:?}");
         }
         let many = format!("v 0 0 0\nf {}", "1 ".repeat(5000));
-        assert_eq!(read(&many).unwrap_err()[0].code, "ST422");
+        assert_eq!(read(&many).unwrap_err()[0].code, "ST0422");
         assert_eq!(read(&"f x\n".repeat(1000)).unwrap_err().len(), 20);
     }
 }

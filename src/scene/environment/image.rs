@@ -27,7 +27,7 @@ pub struct Image {
 /// Decodes the bytes of an HDR (linear), PNG or JPEG (sRGB) file; `place` is where the file is asked for.
 pub fn decode(bytes: &[u8], place: &Place) -> Result<Image, Diagnostic> {
     let wrong = |reason: String| {
-        Diagnostic::error("ST425", format!("the environment picture cannot be read: {reason}"), place.clone())
+        Diagnostic::error("ST0425", format!("the environment picture cannot be read: {reason}"), place.clone())
             .help("give an equirectangular HDR, PNG or JPEG picture")
     };
     let mut reader = ::image::ImageReader::new(Cursor::new(bytes));
@@ -117,7 +117,7 @@ mod tests {
     #[test]
     fn what_is_no_picture_is_said_to_be_none() {
         for bytes in [&b""[..], b"not a picture", b"\x89PNG\r\n\x1a\n\0\0\0", b"#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 9999999 +X 9999999\n"] {
-            assert_eq!(decode(bytes, &Place::default()).unwrap_err().code, "ST425");
+            assert_eq!(decode(bytes, &Place::default()).unwrap_err().code, "ST0425");
         }
     }
 }
