@@ -42,7 +42,10 @@ pub struct FileReference {
 impl FileReference {
     /// A path that no file mentions.
     pub fn new(path: impl Into<String>) -> Self {
-        Self { path: path.into(), span: None }
+        Self {
+            path: path.into(),
+            span: None,
+        }
     }
 }
 
@@ -142,7 +145,15 @@ pub struct CameraSettings {
 
 impl Default for CameraSettings {
     fn default() -> Self {
-        Self { position: [0.0, 1.5, 5.0], target: [0.0; 3], up: [0.0, 1.0, 0.0], fov: 40.0, near: 0.1, far: 100.0, unknown: Unknown::new() }
+        Self {
+            position: [0.0, 1.5, 5.0],
+            target: [0.0; 3],
+            up: [0.0, 1.0, 0.0],
+            fov: 40.0,
+            near: 0.1,
+            far: 100.0,
+            unknown: Unknown::new(),
+        }
     }
 }
 
