@@ -25,14 +25,14 @@ pub struct Image {
 }
 
 /// Decodes the bytes of an HDR (linear), PNG or JPEG (sRGB) file; `place` is where the file is asked for.
-pub fn decode(bytes: &[u8], place: &Place) -> Result<Image, Diagnostic> {
+///
+/// # Errors
+/// The bytes are no such picture, or one that is too large.
+pub fn decode(bytes: &[u8], place: &Place) -> Result<Image, Box<Diagnostic>> {
     let wrong = |reason: String| {
-        Diagnostic::error(
-            "ST0425",
-            format!("the environment picture cannot be read: {reason}"),
-            place.clone(),
-        )
-        .help("give an equirectangular HDR, PNG or JPEG picture")
+        let message = format!("the environment picture cannot be read: {reason}");
+        let help = "give an equirectangular HDR, PNG or JPEG picture";
+        Box::new(Diagnostic::error("ST0425", message, place.clone()).help(help))
     };
     let mut reader = ::image::ImageReader::new(Cursor::new(bytes));
     let mut limits = ::image::Limits::default();
