@@ -5,5 +5,7 @@ pub mod diagnostic;
 pub mod module;
 pub mod node;
 pub mod plan;
+#[cfg(feature = "render")]
+pub mod render;
 pub mod scene;
 pub mod semantic;
