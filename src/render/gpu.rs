@@ -123,7 +123,7 @@ impl Gpu {
             device.queue.submit([encoder.finish()]);
             let pixels = read_back::texture(device, &picture)?;
             let timings = timer.finish(device)?;
-            messages.append(&mut uploads.messages);
+            add_new(&mut messages, uploads.messages);
             Ok(Frame {
                 size: job.size,
                 pixels,
@@ -185,7 +185,7 @@ impl Gpu {
             )?;
             device.queue.submit([encoder.finish()]);
             let pixels = read_back::texture(device, &texture)?;
-            messages.append(&mut uploads.messages);
+            add_new(&mut messages, uploads.messages);
             Ok(MapPicture {
                 size: (map.size, map.size),
                 pixels,
@@ -195,6 +195,15 @@ impl Gpu {
                 messages,
             })
         })
+    }
+}
+
+/// Adds messages that are not there yet.
+fn add_new(messages: &mut Vec<String>, more: Vec<String>) {
+    for message in more {
+        if !messages.contains(&message) {
+            messages.push(message);
+        }
     }
 }
 

@@ -54,8 +54,8 @@ pub enum ImageFileError {
 impl ToneCurve {
     /// Display value, 0 to 1, of a linear one.
     fn apply(self, x: f32) -> f32 {
-        // max turns NaN into 0; the bound keeps squares finite.
-        let x = x.max(0.0).min(1e9);
+        // NaN counts as 0; the bound keeps squares finite.
+        let x = if x > 0.0 { x.min(1e9) } else { 0.0 };
         match self {
             Self::None => x.min(1.0),
             Self::Filmic => (x * (2.51 * x + 0.03) / (x * (2.43 * x + 0.59) + 0.14)).min(1.0),

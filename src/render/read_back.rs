@@ -36,6 +36,12 @@ pub(super) fn texture(
     let row = width * texel;
     let pitch = row.next_multiple_of(wgpu::COPY_BYTES_PER_ROW_ALIGNMENT);
     let is_depth = format == TextureFormat::Depth32Float;
+    let depth_copies = wgpu::DownlevelFlags::DEPTH_TEXTURE_AND_BUFFER_COPIES;
+    if is_depth && !device.downlevel.contains(depth_copies) {
+        return Err(RenderError::Unsupported(
+            "the adapter cannot read depth textures back; a map in a colour format or another backend can be".into(),
+        ));
+    }
     let band_bytes = BAND_BYTES.min(device.limits.max_buffer_size);
     let band = if is_depth {
         // Depth can only be copied as a whole.

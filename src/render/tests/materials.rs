@@ -2,7 +2,7 @@
 
 use super::*;
 use crate::module::{Address, SamplerSettings};
-use crate::render::{Surroundings, SurroundingsLevel, Texels};
+use crate::render::{AdapterChoice, Surroundings, SurroundingsLevel, Texels, adapters};
 
 #[test]
 fn a_parameter_colours_a_square_and_changing_it_builds_no_pipeline() {
@@ -240,4 +240,48 @@ fn a_parameter_block_over_the_limit_is_refused_before_it_is_made() {
         .render(&job(vec![draw(&mesh, &shader)]))
         .expect_err("half a gigabyte of parameters");
     assert!(matches!(error, RenderError::TooLarge { .. }), "{error}");
+}
+
+#[test]
+fn the_adapter_in_use_is_among_those_that_are_listed() {
+    let Some(gpu) = gpu() else { return };
+    let options = AdapterOptions {
+        backends: std::env::var("WGPU_BACKEND").ok(),
+        ..AdapterOptions::default()
+    };
+    let all = adapters(&options).expect("a list");
+    assert!(all.contains(gpu.adapter()), "{all:?}");
+    let half = gpu
+        .adapter()
+        .formats
+        .iter()
+        .find(|(n, _)| n == "rgba16float");
+    assert!(
+        half.is_some_and(|(_, able)| able.renderable),
+        "pictures can be made"
+    );
+    assert!(gpu.adapter().limits.iter().all(|(_, limit)| *limit > 0));
+
+    let part = gpu.adapter().name.to_uppercase();
+    let named = AdapterOptions {
+        choice: AdapterChoice::Name(part),
+        ..options.clone()
+    };
+    assert_eq!(
+        Gpu::new(&named).expect("opens").adapter().name,
+        gpu.adapter().name
+    );
+    let unknown = AdapterChoice::Name("no such adapter".into());
+    let Err(error) = Gpu::new(&AdapterOptions {
+        choice: unknown,
+        ..options
+    }) else {
+        panic!("nothing is called that");
+    };
+    assert!(
+        error
+            .help()
+            .is_some_and(|h| h.contains(&gpu.adapter().name)),
+        "{error}"
+    );
 }
