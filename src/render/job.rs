@@ -45,8 +45,8 @@ pub struct SurroundingsLevel {
     pub width: u32,
     /// Rows.
     pub height: u32,
-    /// Rows from the top, each from the left: linear radiance.
-    pub pixels: Vec<[f32; 3]>,
+    /// Rows from the top, each from the left: linear radiance, and a fourth number that nothing reads.
+    pub pixels: Vec<[f32; 4]>,
 }
 
 /// A decoded image.

@@ -80,12 +80,51 @@ impl Bounds {
         )
     }
 
-    /// Least and greatest coordinate along a unit axis; both 0 for a scene without anything.
-    fn along(&self, axis: Vec3) -> (f32, f32) {
-        let all = || self.corners.iter().flatten().map(|c| c.dot(axis));
-        let low = all().reduce(f32::min).unwrap_or(0.0);
-        (low, all().fold(low, f32::max))
+    /// Least and greatest z, in a frame, of what lies in the column |x|, |y| <= `radius` of that frame. Both are 0 where
+    /// the column is empty.
+    fn depth_in_column(&self, world_to_frame: Mat4, radius: f32) -> (f32, f32) {
+        let mut range: Option<(f32, f32)> = None;
+        for corners in &self.corners {
+            let corners = corners.map(|c| world_to_frame.transform_point3(c));
+            for face in FACES {
+                for point in clip_to_column(face.iter().map(|i| corners[*i]).collect(), radius) {
+                    let (low, high) = range.unwrap_or((point.z, point.z));
+                    range = Some((low.min(point.z), high.max(point.z)));
+                }
+            }
+        }
+        range.unwrap_or_default()
     }
+}
+
+/// The faces of a box by the numbers of their corners, around each face.
+const FACES: [[usize; 4]; 6] = [
+    [0, 2, 6, 4],
+    [1, 3, 7, 5],
+    [0, 1, 5, 4],
+    [2, 3, 7, 6],
+    [0, 1, 3, 2],
+    [4, 5, 7, 6],
+];
+
+/// The part of a convex polygon with |x|, |y| <= `radius` (Sutherland and Hodgman 1974).
+fn clip_to_column(mut polygon: Vec<Vec3>, radius: f32) -> Vec<Vec3> {
+    for side in [Vec3::X, Vec3::NEG_X, Vec3::Y, Vec3::NEG_Y] {
+        let inside = |p: Vec3| radius - p.dot(side);
+        let mut kept = Vec::with_capacity(polygon.len() + 1);
+        for (i, &from) in polygon.iter().enumerate() {
+            let to = polygon[(i + 1) % polygon.len()];
+            let (a, b) = (inside(from), inside(to));
+            if a >= 0.0 {
+                kept.push(from);
+            }
+            if (a >= 0.0) != (b >= 0.0) {
+                kept.push(from.lerp(to, a / (a - b)));
+            }
+        }
+        polygon = kept;
+    }
+    polygon
 }
 
 /// The space of a light with a projection, from the values of its parameters.
@@ -221,10 +260,10 @@ fn orthographic(inputs: &Inputs<'_>, bounds: &Bounds) -> Result<LightSpace, Rend
     }
     // A scene of one point still has an extent to divide by.
     let radius = radius.max(1e-6);
-    let (low, high) = bounds.along(axis);
+    let (low, high) = bounds.depth_in_column(look_along(center, axis), radius);
     // A margin keeps surfaces at both ends inside, whatever rounding does to them.
     let margin = (high - low).max(radius) * 1e-3;
-    let origin = center + axis * (low - margin - center.dot(axis));
+    let origin = center + axis * (low - margin);
     let focal = radius.recip();
     Ok(LightSpace {
         world_to_light: look_along(origin, axis),

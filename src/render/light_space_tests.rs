@@ -208,3 +208,35 @@ fn a_scene_without_anything_still_has_a_space() {
     let space = sun(&[], &Bounds::default()).expect("an empty scene is no mistake");
     assert!(space.to_bytes().len() as u64 == LIGHT_SPACE_BYTES && space.depth.is_finite());
 }
+
+#[test]
+fn only_what_the_map_covers_counts_for_its_depth() {
+    let mut bounds = cube();
+    // A floor of a kilometre, seen at a slant, and something high that is far off the column.
+    let floor = [
+        Vec3::new(-500.0, -1.5, -500.0),
+        Vec3::new(500.0, -1.0, 500.0),
+    ];
+    bounds.add(&floor, Mat4::IDENTITY);
+    bounds.add(
+        &[Vec3::ZERO, Vec3::ONE],
+        Mat4::from_translation(Vec3::new(0.0, 0.0, 300.0)),
+    );
+    let slanted: (&str, &[f64]) = ("direction", &[1.0, -1.0, 0.0]);
+    let space = sun(&[("radius", &[2.0]), slanted], &bounds).expect("a sound sun");
+    assert!(
+        space.depth.y > 4.0 && space.depth.y < 8.0,
+        "{}",
+        space.depth.y
+    );
+    // Where the edge of the column meets the floor, both ends of the range are still in front and behind.
+    for point in [
+        Vec3::new(0.0, -1.0, 0.0),
+        Vec3::new(1.5, -1.0, 1.0),
+        Vec3::splat(1.0),
+        Vec3::splat(-1.0),
+    ] {
+        let z = space.world_to_light.transform_point3(point).z;
+        assert!((0.0..=space.depth.y).contains(&z), "{point} {z}");
+    }
+}

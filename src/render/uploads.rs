@@ -161,7 +161,7 @@ impl<'a> Uploads<'a> {
         let black = [SurroundingsLevel {
             width: 1,
             height: 1,
-            pixels: vec![[0.0; 3]],
+            pixels: vec![[0.0; 4]],
         }];
         let all = surroundings.map_or(&black[..], |s| &s.levels);
         let mut expected = all.first().map_or((0, 0), |l| (l.width, l.height));
@@ -185,12 +185,12 @@ impl<'a> Uploads<'a> {
         let bytes: Vec<(u32, u32, Vec<u8>)> = all
             .iter()
             .map(|l| {
-                let halves = l.pixels.iter().flat_map(|&[r, g, b]| [r, g, b, 1.0]);
-                (
-                    l.width,
-                    l.height,
-                    halves.flat_map(|x| half_bytes(x.max(0.0))).collect(),
-                )
+                let halves = l
+                    .pixels
+                    .iter()
+                    .flatten()
+                    .flat_map(|x| half_bytes(x.max(0.0)));
+                (l.width, l.height, halves.collect())
             })
             .collect();
         let view = self.texture("surroundings", TextureFormat::Rgba16Float, &bytes);

@@ -144,12 +144,12 @@ fn images_are_decoded_and_sampled_upright() {
 #[test]
 fn surroundings_are_seen_behind_with_their_right_side_right() {
     let Some(mut gpu) = gpu() else { return };
-    let row = [
-        [0.0, 0.0, 1.0],
-        [1.0, 0.0, 0.0],
-        [0.0, 1.0, 0.0],
-        [0.0, 0.0, 1.0],
-    ];
+    let (red, green, blue) = (
+        [1.0, 0.0, 0.0, 1.0],
+        [0.0, 1.0, 0.0, 1.0],
+        [0.0, 0.0, 1.0, 1.0],
+    );
+    let row = [blue, red, green, blue];
     let level = SurroundingsLevel {
         width: 4,
         height: 2,
