@@ -5,5 +5,7 @@ pub mod diagnostic;
 pub mod module;
 pub mod node;
 pub mod plan;
+pub mod report;
 pub mod scene;
 pub mod semantic;
+pub mod verify;
