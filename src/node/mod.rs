@@ -1,8 +1,37 @@
 //! Node definitions read from WGSL files, and the catalogue of them.
 
+mod catalog;
+mod check;
+mod codes;
+mod conditional;
+mod custom;
 mod definition;
+mod document;
+mod file;
+mod functions;
+mod header;
+mod items;
+mod pass;
+mod ports;
+mod report;
+mod settings;
+mod sources;
+#[cfg(test)]
+mod tests;
+mod tokens;
+mod verify;
 
+pub use catalog::Catalog;
+pub use codes::CODES;
+pub use conditional::{ConditionError, Kept};
+pub use custom::custom;
 pub use definition::{
     Choices, Default, Definition, Function, Header, Item, Library, MapSpec, OptionSpec, Port, SamplerSpec, SpaceSpec,
     TextureSpec,
 };
+pub use document::{json, markdown, text};
+pub use file::NodeFile;
+pub use header::CATEGORIES;
+pub use pass::{PassFile, PassKind, Skip, reachable};
+pub use sources::{Source, source, sources};
+pub use tokens::{Token, TokenKind, is_identifier, is_reserved, mentions, rename, tokenize};

@@ -1,0 +1,306 @@
+//! Fixed passes: shaders that are not nodes, under `shaders/`.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::sync::Arc;
+
+use super::catalog::Catalog;
+use super::definition::{Choices, Item, OptionSpec};
+use super::file::{self, resolve, stem};
+use super::report::{Piece, Report, lines};
+use super::settings;
+use crate::diagnostic::{Diagnostic, Place, SourceText, did_you_mean};
+
+/// What a pass runs over.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum PassKind {
+    /// The objects of the scene.
+    Geometry,
+    /// Every texel of an image.
+    Image,
+    /// Every texel of every mip level but the first.
+    Mip,
+}
+
+/// `skip: NAME == VALUE`: the pass does nothing for that choice and is left out.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Skip {
+    /// An option of the pass.
+    pub option: String,
+    /// The choice of it.
+    pub value: String,
+}
+
+/// A fixed pass.
+#[derive(Clone, Debug)]
+pub struct PassFile {
+    /// The file's stem.
+    pub name: String,
+    /// What it runs over.
+    pub kind: PassKind,
+    /// Libraries that it needs, direct ones only.
+    pub uses: Vec<String>,
+    /// Structural choices.
+    pub options: Vec<OptionSpec>,
+    /// Texture formats that it can write, the preferred one first, as its `target:` line words them.
+    pub targets: Vec<String>,
+    /// What its target holds before; empty: it does not matter.
+    pub clear: Vec<f64>,
+    /// Axes that it runs along one after the other (`x`, `y`); empty: it runs once.
+    pub axes: Vec<String>,
+    /// When it is left out.
+    pub skip: Option<Skip>,
+    /// All other header lines joined by spaces.
+    pub description: String,
+    /// The file.
+    pub source: Arc<SourceText>,
+}
+
+const KEYS: &[&str] = &["kind", "use", "target", "clear", "axes", "skip", "option", "label"];
+
+impl PassFile {
+    /// Reads the header of a pass; the file's stem is its name.
+    ///
+    /// # Errors
+    /// Everything that is wrong with the header.
+    pub fn parse(source: &Arc<SourceText>) -> Result<Self, Vec<Diagnostic>> {
+        let mut report = Report::new(source);
+        let mut pass = Self {
+            name: stem(&source.name).to_owned(),
+            kind: PassKind::Image,
+            uses: Vec::new(),
+            options: Vec::new(),
+            targets: Vec::new(),
+            clear: Vec::new(),
+            axes: Vec::new(),
+            skip: None,
+            description: String::new(),
+            source: source.clone(),
+        };
+        let mut seen: Vec<&str> = Vec::new();
+        let header = lines(&source.text).map(Piece::trim).take_while(|l| l.text.is_empty() || l.text.starts_with("//!"));
+        for line in header.filter(|l| !l.text.is_empty()) {
+            let line = line.slice(3..line.text.len()).trim();
+            let Some((key, value)) = line.split_once(":") else {
+                pass.describe(line);
+                continue;
+            };
+            let words = key.words();
+            let known = match words[..] {
+                [word] => word.text != "option" && KEYS.contains(&word.text),
+                [word, _] => word.text == "option",
+                _ => false,
+            };
+            if known {
+                if seen.contains(&key.text) {
+                    report.error("ST104", key.range(), format!("`{}` is said twice", key.text));
+                } else {
+                    seen.push(key.text);
+                    pass.line(&mut report, &words, value);
+                }
+            } else if words.len() == 1 && key.text.bytes().all(|b| b.is_ascii_lowercase() || b == b'_') {
+                report
+                    .error("ST101", key.range(), format!("`{}` is not a key of pass headers", key.text))
+                    .suggest(did_you_mean(key.text, KEYS.iter().copied()));
+            } else {
+                pass.describe(line);
+            }
+        }
+        if !seen.contains(&"kind") {
+            report
+                .error("ST138", 0..0, "the header says no kind")
+                .help("add a line `//! kind: geometry`, `//! kind: image` or `//! kind: mip`");
+        }
+        pass.judge_skip(&mut report);
+        if report.found.is_empty() { Ok(pass) } else { Err(report.found) }
+    }
+
+    fn describe(&mut self, line: Piece<'_>) {
+        if !self.description.is_empty() && !line.text.is_empty() {
+            self.description.push(' ');
+        }
+        self.description.push_str(line.text);
+    }
+
+    fn line(&mut self, report: &mut Report, key: &[Piece<'_>], value: Piece<'_>) {
+        let alternatives = |report: &mut Report| -> Vec<String> {
+            let parts = value.split('|');
+            for part in parts.iter().filter(|p| p.text.is_empty()) {
+                report.error("ST138", part.range(), "an empty alternative");
+            }
+            parts.iter().map(|p| p.text.to_owned()).collect()
+        };
+        match key[0].text {
+            "kind" => {
+                self.kind = match value.text {
+                    "geometry" => PassKind::Geometry,
+                    "image" => PassKind::Image,
+                    "mip" => PassKind::Mip,
+                    other => {
+                        report
+                            .error("ST138", value.range(), format!("`{other}` is not a kind of pass"))
+                            .help("kinds are geometry, image, mip");
+                        return;
+                    }
+                }
+            }
+            "use" => self.uses = settings::names(report, value),
+            "option" => self.options.extend(settings::option(report, key[1], value)),
+            "target" => self.targets = alternatives(report),
+            "axes" => {
+                self.axes = alternatives(report);
+                if self.axes.iter().any(|a| a != "x" && a != "y") {
+                    report.error("ST138", value.range(), "axes are x and y");
+                }
+            }
+            "clear" => {
+                let inner = value.text.trim_start_matches('(').trim_end_matches(')');
+                let numbers = inner.split([',', ' ']).filter(|n| !n.is_empty()).map(|n| n.parse::<f64>());
+                match numbers.collect::<Result<Vec<f64>, _>>() {
+                    Ok(n) if (1..=4).contains(&n.len()) && n.iter().all(|x| x.is_finite()) => self.clear = n,
+                    _ => {
+                        report.error("ST138", value.range(), "`clear` takes one to four numbers");
+                    }
+                }
+            }
+            "skip" => match value.split_once("==") {
+                Some((option, value)) => {
+                    self.skip = Some(Skip { option: option.text.to_owned(), value: value.text.to_owned() });
+                }
+                None => {
+                    report.error("ST138", value.range(), "`skip` reads `OPTION == CHOICE`");
+                }
+            },
+            _ => {}
+        }
+    }
+
+    fn judge_skip(&self, report: &mut Report) {
+        let Some(skip) = &self.skip else { return };
+        match self.options.iter().find(|o| o.name == skip.option) {
+            Some(option) if option.choices.contains(&skip.value) => {}
+            Some(_) => {
+                report.error("ST138", 0..0, format!("`{}` is not a choice of `{}`", skip.value, skip.option));
+            }
+            None => {
+                report.error("ST107", 0..0, format!("`skip` names no option: `{}`", skip.option));
+            }
+        }
+    }
+
+    /// Whether the pass is left out for these choices.
+    pub fn is_skipped(&self, choices: &Choices) -> bool {
+        self.skip.as_ref().is_some_and(|skip| {
+            let default = self.options.iter().find(|o| o.name == skip.option).map(|o| &o.default);
+            choices.get(&skip.option).or(default) == Some(&skip.value)
+        })
+    }
+
+    /// The complete WGSL for these choices: what its entry points reach in its libraries and in the file itself, in
+    /// file order, libraries first.
+    ///
+    /// # Errors
+    /// Unknown choices and libraries, malformed conditions and declarations. The text is not judged by naga here.
+    pub fn text(&self, choices: &Choices, catalog: &Catalog) -> Result<String, Vec<Diagnostic>> {
+        let mut report = Report::new(&self.source);
+        let choices = resolve(&self.options, choices, Place::file(&self.source.name))?;
+        let applied = file::apply(&mut report, &self.options, &choices);
+        for name in self.uses.iter().filter(|name| catalog.library(name).is_none()) {
+            report
+                .error("ST128", 0..0, format!("there is no library `{name}`"))
+                .suggest(did_you_mean(name, catalog.library_names()));
+        }
+        if !report.found.is_empty() {
+            return Err(report.found);
+        }
+        let own = file::items_of(&applied);
+        let entries: Vec<&str> = applied.declarations.iter().filter(|d| d.entry).map(|d| d.name.as_str()).collect();
+        if entries.is_empty() {
+            report.error("ST121", 0..0, format!("the pass `{}` has no entry point", self.name));
+            return Err(report.found);
+        }
+        let items: Vec<&Item> = catalog.closure(&self.uses).into_iter().flat_map(|l| &l.items).chain(&own).collect();
+        let kept = reachable(&items, &entries);
+        let texts: Vec<&str> = items.iter().filter(|i| kept.contains(i.name.as_str())).map(|i| i.text.as_str()).collect();
+        Ok(texts.join("\n\n") + "\n")
+    }
+}
+
+/// Names of the items that `roots` mention, directly or through others, `roots` included.
+pub fn reachable<'a>(items: &[&'a Item], roots: &[&'a str]) -> BTreeSet<&'a str> {
+    let by_name: BTreeMap<&str, &'a Item> = items.iter().map(|i| (i.name.as_str(), *i)).collect();
+    let mut open: Vec<&'a str> = roots.to_vec();
+    let mut kept = BTreeSet::new();
+    while let Some(name) = open.pop() {
+        if let Some(item) = by_name.get(name)
+            && kept.insert(item.name.as_str())
+        {
+            open.extend(item.mentions.iter().map(String::as_str));
+        }
+    }
+    kept
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const BLUR: &str = "\
+//! kind: image
+//! use: taps
+//! option width: 3 | 5 = 5 - Taps along an axis.
+//! option mode: box | none = box - Shape.
+//! target: rg32float | rg16float
+//! clear: (1, 0.5)
+//! axes: x | y
+//! skip: mode == none
+//! Blurs along one axis.
+
+const WIDTH: i32 = 5;
+@group(0) @binding(0) var input: texture_2d<f32>;
+fn unused() -> f32 { return 1.0; }
+@vertex fn vertex(@builtin(vertex_index) i: u32) -> @builtin(position) vec4f { return corner(i); }
+@fragment fn fragment(@builtin(position) p: vec4f) -> @location(0) vec4f {
+    return textureLoad(input, vec2i(p.xy), WIDTH);
+}
+";
+
+    fn pass(text: &str) -> Result<PassFile, Vec<String>> {
+        let found = PassFile::parse(&SourceText::new("shaders/blur.wgsl", text));
+        found.map_err(|e| e.into_iter().map(|d| format!("{} {}", d.code, d.message)).collect())
+    }
+
+    #[test]
+    fn header_is_read() {
+        let p = pass(BLUR).unwrap();
+        assert_eq!((p.name.as_str(), p.kind), ("blur", PassKind::Image));
+        assert_eq!(p.targets, ["rg32float", "rg16float"]);
+        assert_eq!((p.clear.as_slice(), p.axes.len()), ([1.0, 0.5].as_slice(), 2));
+        assert_eq!(p.description, "Blurs along one axis.");
+        assert!(!p.is_skipped(&Choices::new()));
+        assert!(p.is_skipped(&Choices::from([("mode".into(), "none".into())])));
+    }
+
+    #[test]
+    fn only_what_is_reached_is_written() {
+        let mut catalog = Catalog::default();
+        let library = "fn corner(i: u32) -> vec4f { return vec4f(f32(i)); }\nfn other() -> f32 { return 1.0; }";
+        assert!(catalog.add_library("taps.wgsl", library).is_empty());
+        let text = pass(BLUR).unwrap().text(&Choices::from([("width".into(), "3".into())]), &catalog).unwrap();
+        assert!(text.contains("fn corner") && text.contains("var input") && text.contains("WIDTH: i32 = 3;"), "{text}");
+        assert!(!text.contains("unused") && !text.contains("other"), "{text}");
+        assert!(naga::front::wgsl::parse_str(&text).is_ok());
+    }
+
+    #[test]
+    fn mistakes() {
+        let found = pass("//! kind: imge\n//! axs: x\n//! axes: z\n//! clear: a\n//! skip: a == b\n//! skip: a == c\n")
+            .unwrap_err();
+        let codes: Vec<&str> = found.iter().map(|f| &f[..5]).collect();
+        assert_eq!(codes, ["ST138", "ST101", "ST138", "ST138", "ST104", "ST107"], "{found:?}");
+        assert!(pass("").unwrap_err()[0].starts_with("ST138"));
+        let p = pass(BLUR).unwrap();
+        assert_eq!(p.text(&Choices::new(), &Catalog::default()).unwrap_err()[0].code, "ST128");
+        let bad = Choices::from([("width".into(), "4".into()), ("wdth".into(), "3".into())]);
+        assert_eq!(p.text(&bad, &Catalog::default()).unwrap_err().len(), 2);
+    }
+}
