@@ -2,10 +2,12 @@
 
 pub mod compile;
 pub mod diagnostic;
+pub mod export;
 pub mod graph;
 pub mod module;
 pub mod node;
 pub mod plan;
+pub mod reflect;
 pub mod report;
 pub mod ron;
 pub mod scene;
