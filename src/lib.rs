@@ -1,15 +1,19 @@
 //! shadetree: weaves abstract shade trees into WGSL.
 
-pub mod compile;
 pub mod diagnostic;
-pub mod export;
+pub mod report;
+pub mod explain;
+pub mod semantic;
+pub mod ron;
 pub mod graph;
-pub mod module;
 pub mod node;
 pub mod plan;
-pub mod reflect;
-pub mod report;
-pub mod ron;
-pub mod scene;
-pub mod semantic;
+pub mod module;
 pub mod verify;
+pub mod export;
+pub mod compile;
+pub mod reflect;
+pub mod scene;
+#[cfg(feature = "render")]
+pub mod render;
+pub mod cli;

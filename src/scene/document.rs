@@ -6,6 +6,7 @@ use glam::DVec3;
 
 use super::{Camera, Environment, Shape, Transform};
 use crate::diagnostic::Span;
+use crate::ron;
 use crate::semantic::Value;
 
 /// Surfaces on objects and lights in space, seen from somewhere.
@@ -25,6 +26,8 @@ pub struct Scene {
     pub lights: Vec<LightInstance>,
     /// Objects, sorted by name.
     pub objects: Vec<Object>,
+    /// Fields that this version does not know, in file order.
+    pub unknown: Unknown,
 }
 
 /// The path of a file as another file gives it, relative to that file.
@@ -39,7 +42,10 @@ pub struct FileReference {
 impl FileReference {
     /// A path that no file mentions.
     pub fn new(path: impl Into<String>) -> Self {
-        Self { path: path.into(), span: None }
+        Self {
+            path: path.into(),
+            span: None,
+        }
     }
 }
 
@@ -51,6 +57,9 @@ pub struct Setting {
     /// Where it is given.
     pub span: Option<Span>,
 }
+
+/// Fields that are kept without being understood.
+pub type Unknown = Vec<(String, ron::Node)>;
 
 /// Settings by `node.port`.
 pub type Settings = BTreeMap<String, Setting>;
@@ -68,6 +77,8 @@ pub struct LightInstance {
     pub graph: FileReference,
     /// Values other than the graph's own.
     pub set: Settings,
+    /// Fields that this version does not know, in file order.
+    pub unknown: Unknown,
 }
 
 /// Something to see.
@@ -91,6 +102,8 @@ pub struct Object {
     pub casts: bool,
     /// Whether shadows fall on it.
     pub receives: bool,
+    /// Fields that this version does not know, in file order.
+    pub unknown: Unknown,
 }
 
 impl Object {
@@ -106,6 +119,7 @@ impl Object {
             transform: Transform::default(),
             casts: true,
             receives: true,
+            unknown: Unknown::new(),
         }
     }
 }
@@ -125,11 +139,21 @@ pub struct CameraSettings {
     pub near: f64,
     /// Farthest visible distance, metres, greater than `near`.
     pub far: f64,
+    /// Fields that this version does not know, in file order.
+    pub unknown: Unknown,
 }
 
 impl Default for CameraSettings {
     fn default() -> Self {
-        Self { position: [0.0, 1.5, 5.0], target: [0.0; 3], up: [0.0, 1.0, 0.0], fov: 40.0, near: 0.1, far: 100.0 }
+        Self {
+            position: [0.0, 1.5, 5.0],
+            target: [0.0; 3],
+            up: [0.0, 1.0, 0.0],
+            fov: 40.0,
+            near: 0.1,
+            far: 100.0,
+            unknown: Unknown::new(),
+        }
     }
 }
 
