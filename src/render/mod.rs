@@ -1,0 +1,34 @@
+//! Runs woven modules on a graphics adapter without a window: maps of lights, the picture, and back to the host.
+//!
+//! It runs any [`crate::module::Module`] with its [`crate::plan::Plan`], also one written by hand, and knows no node,
+//! graph or shadow method. It reads no environment variables and no files except through the job's image loader.
+
+mod adapter;
+mod blocks;
+mod device;
+mod error;
+mod format;
+mod gpu;
+pub mod image_file;
+mod job;
+mod light_space;
+mod main_pass;
+mod maps;
+mod picture_levels;
+mod pipeline;
+mod read_back;
+mod timing;
+mod uploads;
+
+pub use adapter::{AdapterChoice, AdapterOptions, AdapterSummary, adapters};
+pub use error::RenderError;
+pub use format::Abilities;
+pub use gpu::Gpu;
+pub use job::{
+    ColorFormat, Draw, Frame, ImageLoader, Job, MapPicture, PassTiming, Picture, Surroundings,
+    SurroundingsLevel, Texels,
+};
+pub use light_space::{Bounds, LIGHT_SPACE_BYTES, LightSpace, light_space};
+
+#[cfg(test)]
+mod tests;
