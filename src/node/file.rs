@@ -66,7 +66,8 @@ impl NodeFile {
 
     /// The raw text for diagnostics to point into.
     pub fn source(&self) -> &Arc<SourceText> {
-        self.source.get_or_init(|| SourceText::new(&*self.path, &*self.text))
+        self.source
+            .get_or_init(|| SourceText::new(&*self.path, &*self.text))
     }
 
     /// The header.
@@ -79,9 +80,16 @@ impl NodeFile {
                 let (header, mut found) = header::parse(self.source(), true);
                 if !is_identifier(&self.kind) || is_reserved(&self.kind) {
                     let message = format!("`{}` cannot be the name of a WGSL function", self.kind);
-                    found.push(Diagnostic::error("ST109", message, Place::file(&*self.path)).help("rename the file"));
+                    found.push(
+                        Diagnostic::error("ST109", message, Place::file(&*self.path))
+                            .help("rename the file"),
+                    );
                 }
-                if found.is_empty() { Ok(Arc::new(header)) } else { Err(found) }
+                if found.is_empty() {
+                    Ok(Arc::new(header))
+                } else {
+                    Err(found)
+                }
             })
             .clone()
     }
@@ -96,13 +104,20 @@ impl NodeFile {
         let made = resolve(&header.options, choices, Place::file(&*self.path))?;
         let key: Vec<String> = made.iter().map(|(_, choice)| choice.clone()).collect();
         let cached = |key: &Vec<String>| {
-            self.definitions.lock().unwrap_or_else(PoisonError::into_inner).get(key).cloned()
+            self.definitions
+                .lock()
+                .unwrap_or_else(PoisonError::into_inner)
+                .get(key)
+                .cloned()
         };
         if let Some(known) = cached(&key) {
             return known;
         }
         let outcome = define(&self.kind, &header, made, true).map(Arc::new);
-        let mut definitions = self.definitions.lock().unwrap_or_else(PoisonError::into_inner);
+        let mut definitions = self
+            .definitions
+            .lock()
+            .unwrap_or_else(PoisonError::into_inner);
         if definitions.len() < MAX_CACHED {
             definitions.insert(key, outcome.clone());
         }
@@ -125,7 +140,11 @@ pub(crate) fn resolve(
     let mut found = Vec::new();
     for (name, choice) in choices {
         let Some(option) = options.iter().find(|o| o.name == *name) else {
-            let mut error = Diagnostic::error("ST133", format!("there is no option `{name}`"), place.clone());
+            let mut error = Diagnostic::error(
+                "ST133",
+                format!("there is no option `{name}`"),
+                place.clone(),
+            );
             error.help = match did_you_mean(name, options.iter().map(|o| o.name.as_str())) {
                 Some(near) => Some(format!("did you mean `{near}`?")),
                 None if options.is_empty() => Some("it has no options".into()),
@@ -146,12 +165,21 @@ pub(crate) fn resolve(
     if !found.is_empty() {
         return Err(found);
     }
-    let made = |o: &OptionSpec| (o.name.clone(), choices.get(&o.name).unwrap_or(&o.default).clone());
+    let made = |o: &OptionSpec| {
+        (
+            o.name.clone(),
+            choices.get(&o.name).unwrap_or(&o.default).clone(),
+        )
+    };
     Ok(options.iter().map(made).collect())
 }
 
 /// Applies choices to the text of `report`: conditions, then constants that numeric options set.
-pub(crate) fn apply(report: &mut Report, options: &[OptionSpec], choices: &[(String, String)]) -> Applied {
+pub(crate) fn apply(
+    report: &mut Report,
+    options: &[OptionSpec],
+    choices: &[(String, String)],
+) -> Applied {
     let source = report.source.clone();
     let (mut kept, errors) = conditional::apply(&source.text, &|name| {
         let option = options.iter().find(|o| o.name == name)?;
@@ -169,8 +197,12 @@ pub(crate) fn apply(report: &mut Report, options: &[OptionSpec], choices: &[(Str
     }
     let mut edits = Vec::new();
     for (name, choice) in choices {
-        let numeric = options.iter().any(|o| o.name == *name && o.choices.iter().all(|c| c.parse::<f64>().is_ok()));
-        let constant = declarations.iter().find(|d| d.keyword == "const" && d.name == name.to_uppercase());
+        let numeric = options
+            .iter()
+            .any(|o| o.name == *name && o.choices.iter().all(|c| c.parse::<f64>().is_ok()));
+        let constant = declarations
+            .iter()
+            .find(|d| d.keyword == "const" && d.name == name.to_uppercase());
         if let Some(constant) = constant.filter(|_| numeric) {
             edits.extend(initializer(&kept.text, constant).map(|range| (range, choice)));
         }
@@ -189,7 +221,10 @@ pub(crate) fn apply(report: &mut Report, options: &[OptionSpec], choices: &[(Str
 fn initializer(text: &str, constant: &Declaration) -> Option<std::ops::Range<usize>> {
     let tokens = tokenize(&text[constant.range.clone()]);
     let equals = tokens.iter().position(|t| t.is(b'='))?;
-    let (first, last) = (tokens.get(equals + 1)?, tokens.get(tokens.len().checked_sub(2)?)?);
+    let (first, last) = (
+        tokens.get(equals + 1)?,
+        tokens.get(tokens.len().checked_sub(2)?)?,
+    );
     let start = constant.range.start;
     (first.range.start < last.range.end).then(|| start + first.range.start..start + last.range.end)
 }
@@ -198,7 +233,12 @@ fn initializer(text: &str, constant: &Declaration) -> Option<std::ops::Range<usi
 pub(crate) fn items_of(applied: &Applied) -> Vec<Item> {
     let item = |d: &Declaration| {
         let text = applied.kept.text[d.range.clone()].to_owned();
-        Item { name: d.name.clone(), mentions: mentions(&text), text, offset: applied.kept.original(d.range.start) }
+        Item {
+            name: d.name.clone(),
+            mentions: mentions(&text),
+            text,
+            offset: applied.kept.original(d.range.start),
+        }
     };
     applied.declarations.iter().map(item).collect()
 }
@@ -214,8 +254,17 @@ pub(crate) fn define(
     let applied = apply(&mut report, &header.options, &choices);
     let Applied { kept, declarations } = &applied;
     judge(&mut report, &applied);
-    let reader = Reader { kept, declarations, header, strict };
-    let function = |name: &str| declarations.iter().find(|d| d.keyword == "fn" && d.name == name);
+    let reader = Reader {
+        kept,
+        declarations,
+        header,
+        strict,
+    };
+    let function = |name: &str| {
+        declarations
+            .iter()
+            .find(|d| d.keyword == "fn" && d.name == name)
+    };
     let main = function(kind);
     if main.is_none() {
         report
@@ -223,7 +272,8 @@ pub(crate) fn define(
             .help("the function that the node stands for is named like the file");
     }
     let ambient = function(&format!("{kind}_ambient"));
-    let read = |report: &mut Report, d: Option<&Declaration>| d.and_then(|d| reader.function(report, d));
+    let read =
+        |report: &mut Report, d: Option<&Declaration>| d.and_then(|d| reader.function(report, d));
     let (main_read, ambient_read) = (read(&mut report, main), read(&mut report, ambient));
     for (declaration, read) in [(main, &main_read), (ambient, &ambient_read)] {
         if let (Some(declaration), Some(function)) = (declaration, read)
@@ -231,7 +281,11 @@ pub(crate) fn define(
             && function.body.is_none()
         {
             let place = kept.original_range(declaration.name_range.clone());
-            report.error("ST123", place, format!("`{kind}` is inline but its body is not one `return`"));
+            report.error(
+                "ST123",
+                place,
+                format!("`{kind}` is inline but its body is not one `return`"),
+            );
         }
     }
     generic(&mut report, header, &applied);
@@ -241,7 +295,14 @@ pub(crate) fn define(
             // The alias only makes the file valid by itself; whoever instantiates replaces `T` in the text.
             let alias = |i: &Item| i.name == "T" && !header.generic.is_empty();
             let items = items.into_iter().filter(|i| !alias(i)).collect();
-            Ok(Definition { kind: kind.to_owned(), header: header.clone(), choices, main, ambient: ambient_read, items })
+            Ok(Definition {
+                kind: kind.to_owned(),
+                header: header.clone(),
+                choices,
+                main,
+                ambient: ambient_read,
+                items,
+            })
         }
         _ => Err(report.found),
     }
@@ -253,36 +314,68 @@ fn judge(report: &mut Report, applied: &Applied) {
     for (i, d) in declarations.iter().enumerate() {
         let place = kept.original_range(d.name_range.clone());
         if declarations[..i].iter().any(|e| e.name == d.name) {
-            report.error("ST104", place.clone(), format!("`{}` is declared twice", d.name));
+            report.error(
+                "ST104",
+                place.clone(),
+                format!("`{}` is declared twice", d.name),
+            );
         }
         if is_reserved(&d.name) || !is_identifier(&d.name) {
-            report.error("ST120", place.clone(), format!("`{}` cannot be declared in WGSL", d.name));
+            report.error(
+                "ST120",
+                place.clone(),
+                format!("`{}` cannot be declared in WGSL", d.name),
+            );
         }
         if d.entry {
-            report.error("ST125", place, format!("`{}` is an entry point; a node is a function", d.name));
+            report.error(
+                "ST125",
+                place,
+                format!("`{}` is an entry point; a node is a function", d.name),
+            );
         } else if d.keyword == "var" || d.keyword == "override" {
             report
-                .error("ST125", place, format!("`{}` is a module-scope {}", d.name, d.keyword))
+                .error(
+                    "ST125",
+                    place,
+                    format!("`{}` is a module-scope {}", d.name, d.keyword),
+                )
                 .help("what a node needs comes in through its parameters");
         }
     }
 }
 
 fn generic(report: &mut Report, header: &Header, applied: &Applied) {
-    let Some(first) = header.generic.first() else { return };
+    let Some(first) = header.generic.first() else {
+        return;
+    };
     let Applied { kept, declarations } = applied;
-    match declarations.iter().find(|d| d.keyword == "alias" && d.name == "T") {
+    match declarations
+        .iter()
+        .find(|d| d.keyword == "alias" && d.name == "T")
+    {
         None => {
             report
                 .error("ST122", 0..0, "a generic file has no `alias T`")
-                .help(format!("add `alias T = {};` under the header", first.wgsl()));
+                .help(format!(
+                    "add `alias T = {};` under the header",
+                    first.wgsl()
+                ));
         }
         Some(alias) => {
-            let ty = initializer(&kept.text, alias).map(|r| kept.text[r].to_owned()).unwrap_or_default();
+            let ty = initializer(&kept.text, alias)
+                .map(|r| kept.text[r].to_owned())
+                .unwrap_or_default();
             if crate::semantic::Shape::from_wgsl(&ty) != *first {
                 let place = kept.original_range(alias.name_range.clone());
-                report
-                    .error("ST122", place, format!("`T` is `{ty}`, the header's first width is `{}`", first.wgsl()));
+                report.error(
+                    "ST122",
+                    place,
+                    format!(
+                        "`T` is `{ty}`, the header's first width is `{}`",
+                        first.wgsl()
+                    ),
+                );
             }
         }
     }

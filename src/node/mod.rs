@@ -23,7 +23,6 @@ mod verify;
 
 pub use catalog::Catalog;
 pub use codes::CODES;
-pub use conditional::{ConditionError, Kept};
 pub use custom::custom;
 pub use definition::{
     Choices, Default, Definition, Function, Header, Item, Library, MapSpec, OptionSpec, Port, SamplerSpec, SpaceSpec,

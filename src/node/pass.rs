@@ -55,7 +55,9 @@ pub struct PassFile {
     pub source: Arc<SourceText>,
 }
 
-const KEYS: &[&str] = &["kind", "use", "target", "clear", "axes", "skip", "option", "label"];
+const KEYS: &[&str] = &[
+    "kind", "use", "target", "clear", "axes", "skip", "option", "label",
+];
 
 impl PassFile {
     /// Reads the header of a pass; the file's stem is its name.
@@ -77,7 +79,9 @@ impl PassFile {
             source: source.clone(),
         };
         let mut seen: Vec<&str> = Vec::new();
-        let header = lines(&source.text).map(Piece::trim).take_while(|l| l.text.is_empty() || l.text.starts_with("//!"));
+        let header = lines(&source.text)
+            .map(Piece::trim)
+            .take_while(|l| l.text.is_empty() || l.text.starts_with("//!"));
         for line in header.filter(|l| !l.text.is_empty()) {
             let line = line.slice(3..line.text.len()).trim();
             let Some((key, value)) = line.split_once(":") else {
@@ -92,14 +96,27 @@ impl PassFile {
             };
             if known {
                 if seen.contains(&key.text) {
-                    report.error("ST104", key.range(), format!("`{}` is said twice", key.text));
+                    report.error(
+                        "ST104",
+                        key.range(),
+                        format!("`{}` is said twice", key.text),
+                    );
                 } else {
                     seen.push(key.text);
                     pass.line(&mut report, &words, value);
                 }
-            } else if words.len() == 1 && key.text.bytes().all(|b| b.is_ascii_lowercase() || b == b'_') {
+            } else if words.len() == 1
+                && key
+                    .text
+                    .bytes()
+                    .all(|b| b.is_ascii_lowercase() || b == b'_')
+            {
                 report
-                    .error("ST101", key.range(), format!("`{}` is not a key of pass headers", key.text))
+                    .error(
+                        "ST101",
+                        key.range(),
+                        format!("`{}` is not a key of pass headers", key.text),
+                    )
                     .suggest(did_you_mean(key.text, KEYS.iter().copied()));
             } else {
                 pass.describe(line);
@@ -111,7 +128,11 @@ impl PassFile {
                 .help("add a line `//! kind: geometry`, `//! kind: image` or `//! kind: mip`");
         }
         pass.judge_skip(&mut report);
-        if report.found.is_empty() { Ok(pass) } else { Err(report.found) }
+        if report.found.is_empty() {
+            Ok(pass)
+        } else {
+            Err(report.found)
+        }
     }
 
     fn describe(&mut self, line: Piece<'_>) {
@@ -137,7 +158,11 @@ impl PassFile {
                     "mip" => PassKind::Mip,
                     other => {
                         report
-                            .error("ST138", value.range(), format!("`{other}` is not a kind of pass"))
+                            .error(
+                                "ST138",
+                                value.range(),
+                                format!("`{other}` is not a kind of pass"),
+                            )
                             .help("kinds are geometry, image, mip");
                         return;
                     }
@@ -154,9 +179,14 @@ impl PassFile {
             }
             "clear" => {
                 let inner = value.text.trim_start_matches('(').trim_end_matches(')');
-                let numbers = inner.split([',', ' ']).filter(|n| !n.is_empty()).map(|n| n.parse::<f64>());
+                let numbers = inner
+                    .split([',', ' '])
+                    .filter(|n| !n.is_empty())
+                    .map(|n| n.parse::<f64>());
                 match numbers.collect::<Result<Vec<f64>, _>>() {
-                    Ok(n) if (1..=4).contains(&n.len()) && n.iter().all(|x| x.is_finite()) => self.clear = n,
+                    Ok(n) if (1..=4).contains(&n.len()) && n.iter().all(|x| x.is_finite()) => {
+                        self.clear = n
+                    }
                     _ => {
                         report.error("ST138", value.range(), "`clear` takes one to four numbers");
                     }
@@ -164,7 +194,10 @@ impl PassFile {
             }
             "skip" => match value.split_once("==") {
                 Some((option, value)) => {
-                    self.skip = Some(Skip { option: option.text.to_owned(), value: value.text.to_owned() });
+                    self.skip = Some(Skip {
+                        option: option.text.to_owned(),
+                        value: value.text.to_owned(),
+                    });
                 }
                 None => {
                     report.error("ST138", value.range(), "`skip` reads `OPTION == CHOICE`");
@@ -179,10 +212,18 @@ impl PassFile {
         match self.options.iter().find(|o| o.name == skip.option) {
             Some(option) if option.choices.contains(&skip.value) => {}
             Some(_) => {
-                report.error("ST138", 0..0, format!("`{}` is not a choice of `{}`", skip.value, skip.option));
+                report.error(
+                    "ST138",
+                    0..0,
+                    format!("`{}` is not a choice of `{}`", skip.value, skip.option),
+                );
             }
             None => {
-                report.error("ST107", 0..0, format!("`skip` names no option: `{}`", skip.option));
+                report.error(
+                    "ST107",
+                    0..0,
+                    format!("`skip` names no option: `{}`", skip.option),
+                );
             }
         }
     }
@@ -190,7 +231,11 @@ impl PassFile {
     /// Whether the pass is left out for these choices.
     pub fn is_skipped(&self, choices: &Choices) -> bool {
         self.skip.as_ref().is_some_and(|skip| {
-            let default = self.options.iter().find(|o| o.name == skip.option).map(|o| &o.default);
+            let default = self
+                .options
+                .iter()
+                .find(|o| o.name == skip.option)
+                .map(|o| &o.default);
             choices.get(&skip.option).or(default) == Some(&skip.value)
         })
     }
@@ -204,7 +249,11 @@ impl PassFile {
         let mut report = Report::new(&self.source);
         let choices = resolve(&self.options, choices, Place::file(&self.source.name))?;
         let applied = file::apply(&mut report, &self.options, &choices);
-        for name in self.uses.iter().filter(|name| catalog.library(name).is_none()) {
+        for name in self
+            .uses
+            .iter()
+            .filter(|name| catalog.library(name).is_none())
+        {
             report
                 .error("ST128", 0..0, format!("there is no library `{name}`"))
                 .suggest(did_you_mean(name, catalog.library_names()));
@@ -213,14 +262,32 @@ impl PassFile {
             return Err(report.found);
         }
         let own = file::items_of(&applied);
-        let entries: Vec<&str> = applied.declarations.iter().filter(|d| d.entry).map(|d| d.name.as_str()).collect();
+        let entries: Vec<&str> = applied
+            .declarations
+            .iter()
+            .filter(|d| d.entry)
+            .map(|d| d.name.as_str())
+            .collect();
         if entries.is_empty() {
-            report.error("ST121", 0..0, format!("the pass `{}` has no entry point", self.name));
+            report.error(
+                "ST121",
+                0..0,
+                format!("the pass `{}` has no entry point", self.name),
+            );
             return Err(report.found);
         }
-        let items: Vec<&Item> = catalog.closure(&self.uses).into_iter().flat_map(|l| &l.items).chain(&own).collect();
+        let items: Vec<&Item> = catalog
+            .closure(&self.uses)
+            .into_iter()
+            .flat_map(|l| &l.items)
+            .chain(&own)
+            .collect();
         let kept = reachable(&items, &entries);
-        let texts: Vec<&str> = items.iter().filter(|i| kept.contains(i.name.as_str())).map(|i| i.text.as_str()).collect();
+        let texts: Vec<&str> = items
+            .iter()
+            .filter(|i| kept.contains(i.name.as_str()))
+            .map(|i| i.text.as_str())
+            .collect();
         Ok(texts.join("\n\n") + "\n")
     }
 }
@@ -266,7 +333,11 @@ fn unused() -> f32 { return 1.0; }
 
     fn pass(text: &str) -> Result<PassFile, Vec<String>> {
         let found = PassFile::parse(&SourceText::new("shaders/blur.wgsl", text));
-        found.map_err(|e| e.into_iter().map(|d| format!("{} {}", d.code, d.message)).collect())
+        found.map_err(|e| {
+            e.into_iter()
+                .map(|d| format!("{} {}", d.code, d.message))
+                .collect()
+        })
     }
 
     #[test]
@@ -274,7 +345,10 @@ fn unused() -> f32 { return 1.0; }
         let p = pass(BLUR).unwrap();
         assert_eq!((p.name.as_str(), p.kind), ("blur", PassKind::Image));
         assert_eq!(p.targets, ["rg32float", "rg16float"]);
-        assert_eq!((p.clear.as_slice(), p.axes.len()), ([1.0, 0.5].as_slice(), 2));
+        assert_eq!(
+            (p.clear.as_slice(), p.axes.len()),
+            ([1.0, 0.5].as_slice(), 2)
+        );
         assert_eq!(p.description, "Blurs along one axis.");
         assert!(!p.is_skipped(&Choices::new()));
         assert!(p.is_skipped(&Choices::from([("mode".into(), "none".into())])));
@@ -285,9 +359,20 @@ fn unused() -> f32 { return 1.0; }
         let mut catalog = Catalog::default();
         let library = "fn corner(i: u32) -> vec4f { return vec4f(f32(i)); }\nfn other() -> f32 { return 1.0; }";
         assert!(catalog.add_library("taps.wgsl", library).is_empty());
-        let text = pass(BLUR).unwrap().text(&Choices::from([("width".into(), "3".into())]), &catalog).unwrap();
-        assert!(text.contains("fn corner") && text.contains("var input") && text.contains("WIDTH: i32 = 3;"), "{text}");
-        assert!(!text.contains("unused") && !text.contains("other"), "{text}");
+        let text = pass(BLUR)
+            .unwrap()
+            .text(&Choices::from([("width".into(), "3".into())]), &catalog)
+            .unwrap();
+        assert!(
+            text.contains("fn corner")
+                && text.contains("var input")
+                && text.contains("WIDTH: i32 = 3;"),
+            "{text}"
+        );
+        assert!(
+            !text.contains("unused") && !text.contains("other"),
+            "{text}"
+        );
         assert!(naga::front::wgsl::parse_str(&text).is_ok());
     }
 
@@ -296,10 +381,17 @@ fn unused() -> f32 { return 1.0; }
         let found = pass("//! kind: imge\n//! axs: x\n//! axes: z\n//! clear: a\n//! skip: a == b\n//! skip: a == c\n")
             .unwrap_err();
         let codes: Vec<&str> = found.iter().map(|f| &f[..5]).collect();
-        assert_eq!(codes, ["ST138", "ST101", "ST138", "ST138", "ST104", "ST107"], "{found:?}");
+        assert_eq!(
+            codes,
+            ["ST138", "ST101", "ST138", "ST138", "ST104", "ST107"],
+            "{found:?}"
+        );
         assert!(pass("").unwrap_err()[0].starts_with("ST138"));
         let p = pass(BLUR).unwrap();
-        assert_eq!(p.text(&Choices::new(), &Catalog::default()).unwrap_err()[0].code, "ST128");
+        assert_eq!(
+            p.text(&Choices::new(), &Catalog::default()).unwrap_err()[0].code,
+            "ST128"
+        );
         let bad = Choices::from([("width".into(), "4".into()), ("wdth".into(), "3".into())]);
         assert_eq!(p.text(&bad, &Catalog::default()).unwrap_err().len(), 2);
     }
