@@ -98,7 +98,8 @@ pub enum EditError {
     Full(&'static str),
 }
 
-/// Makes a change and returns the one that takes it back.
+/// Makes a change and returns the one that takes it back. The graph is one that was read without errors or made by edits:
+/// taking back needs what edits demand, and a link to a node that is not there could not be put back.
 pub fn apply(graph: &mut Graph, edit: Edit) -> Result<Edit, EditError> {
     use std::mem::replace;
     Ok(match edit {

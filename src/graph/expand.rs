@@ -20,6 +20,9 @@ use crate::ron;
 /// of its source), to its own canonical path and itself. A graph that was read with errors is to be an `Err`.
 pub type Loader<'a> = &'a dyn Fn(&str, &str) -> Result<(String, Arc<Graph>), Vec<Diagnostic>>;
 
+/// A graph file: its canonical path and what it holds.
+type Loaded = (String, Arc<Graph>);
+
 /// Most bytes of graph text that subgraphs put in place, counted once for each use.
 const MAX_TEXT: usize = 4 * ron::MAX_BYTES;
 
@@ -53,7 +56,7 @@ struct Expander {
     order: Vec<String>,
     /// Links in full names, whose ends may be stands.
     links: Vec<(Link, Place)>,
-    loaded: BTreeMap<(String, String), Option<(String, Arc<Graph>)>>,
+    loaded: BTreeMap<(String, String), Option<Loaded>>,
     text: usize,
     found: Vec<Diagnostic>,
 }
@@ -119,12 +122,9 @@ impl Expander {
                 continue;
             };
             if task.chain.len() > MAX_NESTING {
-                let message = format!("subgraphs are nested more than {MAX_NESTING} deep at `{full}`");
-                self.push(Diagnostic::error(
-                    "ST0063",
-                    message,
-                    graph.kind_place(name),
-                ));
+                let message =
+                    format!("subgraphs are nested more than {MAX_NESTING} deep at `{full}`");
+                self.push(Diagnostic::error("ST0063", message, graph.kind_place(name)));
                 return None;
             }
             let Some((file, inner)) = self.load(task, name, path, load) else {

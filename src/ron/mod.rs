@@ -11,6 +11,7 @@
 mod fields;
 mod read;
 mod scan;
+mod series;
 mod tree;
 mod write;
 
@@ -27,7 +28,7 @@ pub const MAX_BYTES: usize = 64 << 20;
 /// Deepest nesting of values that is read.
 pub const MAX_DEPTH: usize = 64;
 /// Most values and comments that one text may hold; bounds the memory that a small text can ask for.
-pub const MAX_VALUES: usize = 2_000_000;
+pub const MAX_VALUES: usize = 1_000_000;
 /// Most mistakes that one text is told of.
 pub const MAX_ERRORS: usize = 50;
 
@@ -48,7 +49,7 @@ pub const CODES: &[(&str, &str)] = &[
     ("ST0004", "Values are nested more deeply than 64 levels."),
     (
         "ST0005",
-        "The file is larger than 64 MiB or holds more than 2,000,000 values.",
+        "The file is larger than 64 MiB or holds more than 1,000,000 values.",
     ),
     (
         "ST0006",

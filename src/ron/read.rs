@@ -107,6 +107,11 @@ impl Reader<'_> {
         }
     }
 
+    /// Whether as many mistakes are known as are told of.
+    pub(super) fn is_full(&self) -> bool {
+        self.diagnostics.len() >= MAX_ERRORS
+    }
+
     pub(super) fn report(&mut self, mistake: Mistake) {
         match self.diagnostics.len() {
             n if n < MAX_ERRORS => self.diagnostics.push(diagnose(self.source, mistake)),
@@ -306,99 +311,5 @@ impl Reader<'_> {
             Ok(())
         })?;
         Ok(Tree::Map(entries))
-    }
-
-    fn twice(&mut self, name: &str, at: Range<usize>) {
-        let message = format!("`{name}` is given twice here");
-        self.report(Mistake {
-            code: "ST0006",
-            message,
-            at,
-            fatal: false,
-        });
-    }
-
-    fn colon(&mut self) -> Result<(), Mistake> {
-        self.blank()?;
-        if !self.eat(":") {
-            return Err(self.mistake("ST0001", "expected `:`"));
-        }
-        self.blank()
-    }
-
-    /// Comma-separated things up to `close`; the opening bracket is behind the cursor.
-    fn series(
-        &mut self,
-        close: char,
-        mut one: impl FnMut(&mut Self) -> Result<(), Mistake>,
-    ) -> Result<(), Mistake> {
-        let open = self.at.saturating_sub(1);
-        loop {
-            self.blank()?;
-            match self.peek() {
-                None => {
-                    return Err(fatal(
-                        "ST0001",
-                        format!("no `{close}` closes this"),
-                        open..self.at.min(open + 1),
-                    ));
-                }
-                Some(c) if c == close => {
-                    self.at += c.len_utf8();
-                    return Ok(());
-                }
-                Some(c @ (')' | ']' | '}')) => {
-                    let message = format!("expected `{close}`, found `{c}`");
-                    return Err(fatal("ST0001", message, self.at..self.at + 1));
-                }
-                Some(_) => {}
-            }
-            let result = one(self).and_then(|()| {
-                self.blank()?;
-                match self.peek() {
-                    Some(',') => self.at += 1,
-                    None => {}
-                    // A closing bracket of another kind is told at the head of the loop.
-                    Some(')' | ']' | '}') => {}
-                    Some(_) => {
-                        return Err(self.mistake("ST0001", format!("expected `,` or `{close}`")));
-                    }
-                }
-                Ok(())
-            });
-            match result {
-                Ok(()) => {}
-                Err(mistake) if mistake.fatal => return Err(mistake),
-                Err(mistake) => {
-                    self.report(mistake);
-                    self.recover()?;
-                }
-            }
-        }
-    }
-
-    /// Steps to the end of the thing that went wrong: past the next comma, or up to a closing bracket, at this level.
-    fn recover(&mut self) -> Result<(), Mistake> {
-        let mut open = Vec::new();
-        loop {
-            self.blank()?;
-            let Some(c) = self.peek() else { return Ok(()) };
-            match c {
-                '"' => {
-                    self.string()?;
-                    continue;
-                }
-                'r' if self.raw_string()?.is_some() => continue,
-                '(' | '[' | '{' => open.push(c),
-                ')' | ']' | '}' if open.is_empty() => return Ok(()),
-                ')' | ']' | '}' => drop(open.pop()),
-                ',' if open.is_empty() => {
-                    self.at += 1;
-                    return Ok(());
-                }
-                _ => {}
-            }
-            self.at += c.len_utf8();
-        }
     }
 }

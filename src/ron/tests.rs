@@ -114,7 +114,7 @@ fn limits_hold() {
     let many = codes(&format!("[{}]", "?,".repeat(1000)));
     assert_eq!(
         (many.len(), many.last().map(String::as_str)),
-        (MAX_ERRORS + 1, Some("ST0012"))
+        (MAX_ERRORS + 1, Some("ST0012 1:100"))
     );
 }
 

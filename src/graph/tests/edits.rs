@@ -150,6 +150,7 @@ fn any_edit() -> impl Strategy<Value = Edit> {
 }
 
 proptest! {
+    #![proptest_config(ProptestConfig::with_cases(64))]
     #[test]
     fn inverses_take_everything_back(edits in prop::collection::vec(any_edit(), 1..40)) {
         let mut graph = start();
