@@ -14,6 +14,8 @@ mod load;
 mod new;
 mod nodes;
 mod output;
+#[cfg(feature = "render")]
+mod picture;
 mod render;
 mod settings;
 mod watch;
