@@ -1,9 +1,16 @@
-//! The one facade: graphs and a catalogue in, a module with its plan out. (interface)
+//! The one facade: graphs and a catalogue in, a module with its plan out.
 
 use std::collections::BTreeMap;
 
+use crate::diagnostic::{Diagnostic, has_errors};
+use crate::emit::emit;
+use crate::graph::Graph;
 use crate::module::Module;
+use crate::node::Catalog;
 use crate::plan::Plan;
+use crate::program::build;
+use crate::semantic::Value;
+use crate::weave::weave;
 
 /// What the fragment shader writes.
 #[derive(Clone, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -28,8 +35,6 @@ pub struct Options {
     pub output: Output,
     /// Write parameters as constants instead of uniform members.
     pub bake: bool,
-    /// Overrides of structural options: (`node`, option) to choice.
-    pub choices: BTreeMap<(String, String), String>,
 }
 
 /// A module and what must be rendered before it can run.
@@ -39,4 +44,33 @@ pub struct Compiled {
     pub module: Module,
     /// Its maps and lights.
     pub plan: Plan,
+}
+
+/// A graph with the name that its nodes go by where there are several, and values that override its own.
+#[derive(Clone, Debug, Default)]
+pub struct NamedGraph {
+    /// A file stem, or the name of a light in a scene.
+    pub name: String,
+    /// The graph, subgraphs expanded.
+    pub graph: Graph,
+    /// Values by `node.port`, in the unit of files.
+    pub set: BTreeMap<String, Value>,
+}
+
+/// Weaves graphs into one module. The module is there exactly if no diagnostic is an error.
+pub fn compile(graphs: &[NamedGraph], catalog: &Catalog, options: &Options) -> (Option<Compiled>, Vec<Diagnostic>) {
+    let (woven, mut diagnostics) = weave(graphs, catalog, &options.output);
+    let Some(woven) = woven else { return (None, diagnostics) };
+    let program = build(&woven, options.bake);
+    let (module, plan, mut found) = emit(&program, catalog, &title(graphs));
+    diagnostics.append(&mut found);
+    if has_errors(&diagnostics) { (None, diagnostics) } else { (Some(Compiled { module, plan }), diagnostics) }
+}
+
+/// The names of the graphs, for the first line of the text.
+fn title(graphs: &[NamedGraph]) -> String {
+    let name = |g: &NamedGraph| if g.graph.name.is_empty() { g.name.clone() } else { g.graph.name.clone() };
+    let titles: Vec<String> = graphs.iter().map(name).collect();
+    // Whatever a person calls a graph, it stays on one line of the text.
+    titles.join(" + ").chars().map(|c| if c.is_control() { ' ' } else { c }).collect()
 }

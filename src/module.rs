@@ -211,23 +211,16 @@ impl Module {
 }
 
 impl Parameter {
-    /// The numbers that the shader sees: one per component, `deg` as radians, booleans as 0 or 1.
+    /// The numbers that the shader sees: one per component, `deg` as radians, `srgb` decoded, booleans as 0 or 1.
     pub fn stored(&self, value: &Value) -> Vec<f64> {
-        let scale = if self.unit == "deg" { std::f64::consts::PI / 180.0 } else { 1.0 };
-        let count = match &self.shape {
-            Shape::F32(n) => usize::from(*n),
-            Shape::Matrix(n) => usize::from(*n).pow(2),
-            _ => 1,
-        };
-        match value {
-            Value::Bool(b) => vec![f64::from(u8::from(*b))],
-            Value::Numbers(n) if n.len() == 1 => vec![n[0] * scale; count],
-            Value::Numbers(n) => n.iter().map(|x| x * scale).collect(),
-            Value::Text(_) => vec![0.0; count],
-        }
+        stored(value, &self.shape, &self.unit)
     }
 
-    #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "parameters are f32, i32 or u32 by type")]
+    #[allow(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "parameters are f32, i32 or u32 by type"
+    )]
     fn write(&self, value: &Value, bytes: &mut [u8]) {
         let side = match self.shape {
             Shape::Matrix(n) => usize::from(n),
@@ -247,4 +240,30 @@ impl Parameter {
             }
         }
     }
+}
+
+/// The numbers that a shader sees for a value of this shape given in this unit.
+pub(crate) fn stored(value: &Value, shape: &Shape, unit: &str) -> Vec<f64> {
+    let scale = if unit == "deg" { std::f64::consts::PI / 180.0 } else { 1.0 };
+    let count = match shape {
+        Shape::F32(n) => usize::from(*n),
+        Shape::Matrix(n) => usize::from(*n).pow(2),
+        _ => 1,
+    };
+    match value {
+        Value::Bool(b) => vec![f64::from(u8::from(*b))],
+        Value::Numbers(n) if unit == "srgb" => {
+            let spread = |i: usize| if n.len() == 1 && i < 3 { n[0] } else { n.get(i).copied().unwrap_or(1.0) };
+            // Alpha is a share, not a colour.
+            (0..count).map(|i| if i < 3 { linear_from_srgb(spread(i)) } else { spread(i) }).collect()
+        }
+        Value::Numbers(n) if n.len() == 1 => vec![n[0] * scale; count],
+        Value::Numbers(n) => n.iter().map(|x| x * scale).collect(),
+        Value::Text(_) => vec![0.0; count],
+    }
+}
+
+/// The sRGB transfer curve, decoded (IEC 61966-2-1).
+pub(crate) fn linear_from_srgb(x: f64) -> f64 {
+    if x <= 0.04045 { x / 12.92 } else { ((x + 0.055) / 1.055).powf(2.4) }
 }

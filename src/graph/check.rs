@@ -38,29 +38,18 @@ pub(super) fn end_exists(
     if report.is_full() {
         return report.push(Diagnostic::error("ST0056", "", Place::default()));
     }
-    let message = format!(
-        "{what} names the node `{}`, which is not in the graph",
-        end.node
-    );
+    let message = format!("{what} names the node `{}`, which is not in the graph", end.node);
     let error = Diagnostic::error("ST0056", message, place());
-    report.push(
-        match did_you_mean(&end.node, graph.nodes.keys().map(String::as_str)) {
-            Some(near) => error.help(format!("did you mean `{near}`?")),
-            None => error,
-        },
-    );
+    report.push(match did_you_mean(&end.node, graph.nodes.keys().map(String::as_str)) {
+        Some(near) => error.help(format!("did you mean `{near}`?")),
+        None => error,
+    });
 }
 
 /// Reports a link that cannot be.
 pub(super) fn link(graph: &Graph, link: &Link, report: &mut Report) {
     for end in [&link.from, &link.to] {
-        end_exists(
-            graph,
-            Some(end),
-            "the link",
-            || graph.link_place(link),
-            report,
-        );
+        end_exists(graph, Some(end), "the link", || graph.link_place(link), report);
     }
     if link.from.node == link.to.node {
         let message = format!("the link leads from `{}` to itself", link.from.node);
@@ -72,11 +61,7 @@ pub(super) fn link(graph: &Graph, link: &Link, report: &mut Report) {
 pub(super) fn cycles(graph: &Graph) -> impl Iterator<Item = Diagnostic> {
     find_cycles(graph, MAX_CYCLES).into_iter().map(|cycle| {
         let place = graph.link_place(&graph.links[cycle.closing]);
-        let error = Diagnostic::error(
-            "ST0059",
-            format!("the links form a cycle: {}", spell(&cycle.nodes)),
-            place,
-        );
+        let error = Diagnostic::error("ST0059", format!("the links form a cycle: {}", spell(&cycle.nodes)), place);
         error.help("remove one of its links")
     })
 }
@@ -107,17 +92,8 @@ pub(super) fn find_cycles(graph: &Graph, most: usize) -> Vec<Cycle> {
         Open,
         Done,
     }
-    let names: Vec<&String> = graph
-        .nodes
-        .iter()
-        .filter(|(_, n)| n.graph.is_none())
-        .map(|(name, _)| name)
-        .collect();
-    let numbers: BTreeMap<&String, usize> = names
-        .iter()
-        .enumerate()
-        .map(|(i, name)| (*name, i))
-        .collect();
+    let names: Vec<&String> = graph.nodes.iter().filter(|(_, n)| n.graph.is_none()).map(|(name, _)| name).collect();
+    let numbers: BTreeMap<&String, usize> = names.iter().enumerate().map(|(i, name)| (*name, i)).collect();
     let mut next: Vec<Vec<(usize, usize)>> = vec![Vec::new(); names.len()];
     for (index, link) in graph.links.iter().enumerate() {
         if let (Some(&from), Some(&to)) = (numbers.get(&link.from.node), numbers.get(&link.to.node))
@@ -149,10 +125,7 @@ pub(super) fn find_cycles(graph: &Graph, most: usize) -> Vec<Cycle> {
                 }
                 Mark::Open => {
                     let start = path.iter().position(|(n, _)| *n == to).unwrap_or(0);
-                    let nodes = path[start..]
-                        .iter()
-                        .map(|(n, _)| names[*n].clone())
-                        .collect();
+                    let nodes = path[start..].iter().map(|(n, _)| names[*n].clone()).collect();
                     cycles.push(Cycle { nodes, closing });
                     if cycles.len() >= most {
                         return cycles;

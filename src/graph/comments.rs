@@ -28,10 +28,7 @@ pub(super) fn keep(document: &Document, text: &str, mut items: Vec<Item>, graph:
             Some(Target::Link(index)) => graph.links.get_mut(*index).map(|l| &mut l.note),
             None => None,
         };
-        append(
-            note.unwrap_or(&mut graph.note),
-            &content(&text[comment.span.clone()], comment.block),
-        );
+        append(note.unwrap_or(&mut graph.note), &content(&text[comment.span.clone()], comment.block));
     }
 }
 
@@ -70,11 +67,7 @@ fn owners(comments: &[Comment], text: &str, items: &[Item]) -> Vec<Option<usize>
 fn content(comment: &str, block: bool) -> String {
     if !block {
         let body = comment.trim_start_matches('/');
-        return body
-            .strip_prefix(' ')
-            .unwrap_or(body)
-            .trim_end()
-            .to_string();
+        return body.strip_prefix(' ').unwrap_or(body).trim_end().to_string();
     }
     let body = comment.strip_prefix("/*").unwrap_or(comment);
     let body = body.strip_suffix("*/").unwrap_or(body);

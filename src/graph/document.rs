@@ -109,46 +109,29 @@ pub struct Expose {
 impl Expose {
     /// Whether nothing is exposed.
     pub fn is_empty(&self) -> bool {
-        self.inputs.is_empty()
-            && self.outputs.is_empty()
-            && self.options.is_empty()
-            && self.unknown.is_empty()
+        self.inputs.is_empty() && self.outputs.is_empty() && self.options.is_empty() && self.unknown.is_empty()
     }
 
     /// Every inner end that is named.
     pub fn ends(&self) -> impl Iterator<Item = &End> {
-        self.inputs
-            .values()
-            .chain(self.options.values())
-            .flatten()
-            .chain(self.outputs.values())
+        self.inputs.values().chain(self.options.values()).flatten().chain(self.outputs.values())
     }
 
     /// Every inner end that is named, to change.
     pub(crate) fn ends_mut(&mut self) -> impl Iterator<Item = &mut End> {
-        self.inputs
-            .values_mut()
-            .chain(self.options.values_mut())
-            .flatten()
-            .chain(self.outputs.values_mut())
+        self.inputs.values_mut().chain(self.options.values_mut()).flatten().chain(self.outputs.values_mut())
     }
 }
 
 impl End {
     /// An end at a node, unpinned.
     pub fn node(node: impl Into<String>) -> Self {
-        Self {
-            node: node.into(),
-            port: None,
-        }
+        Self { node: node.into(), port: None }
     }
 
     /// An end at a port.
     pub fn port(node: impl Into<String>, port: impl Into<String>) -> Self {
-        Self {
-            node: node.into(),
-            port: Some(port.into()),
-        }
+        Self { node: node.into(), port: Some(port.into()) }
     }
 
     /// Reads `node` or `node.port`. The error says what is wrong.
@@ -165,10 +148,7 @@ impl End {
                 return Err(format!("`{port}` is not the name of a port"));
             }
         }
-        Ok(Self {
-            node: node.into(),
-            port: port.map(Into::into),
-        })
+        Ok(Self { node: node.into(), port: port.map(Into::into) })
     }
 }
 
@@ -184,20 +164,12 @@ impl fmt::Display for End {
 impl Link {
     /// A link between two ends.
     pub fn new(from: End, to: End) -> Self {
-        Self {
-            from,
-            to,
-            note: String::new(),
-            unknown: Vec::new(),
-            span: None,
-        }
+        Self { from, to, note: String::new(), unknown: Vec::new(), span: None }
     }
 
     /// Reads `from -> to`. The error says what is wrong.
     pub fn parse(text: &str) -> Result<Self, String> {
-        let (from, to) = text
-            .split_once("->")
-            .ok_or_else(|| format!("`{text}` has no `->`"))?;
+        let (from, to) = text.split_once("->").ok_or_else(|| format!("`{text}` has no `->`"))?;
         Ok(Self::new(End::parse(from)?, End::parse(to)?))
     }
 
@@ -224,15 +196,10 @@ pub fn check_name(name: &str) -> Result<(), String> {
         return Err("a node's name has at most 100 bytes".into());
     }
     if let Some(c) = name.chars().find(|&c| !fine(c)) {
-        return Err(format!(
-            "`{name}` cannot name a node because of the `{}`",
-            c.escape_debug()
-        ));
+        return Err(format!("`{name}` cannot name a node because of the `{}`", c.escape_debug()));
     }
     if name.starts_with(' ') || name.ends_with(' ') {
-        return Err(format!(
-            "`{name}` cannot name a node because of the space at its edge"
-        ));
+        return Err(format!("`{name}` cannot name a node because of the space at its edge"));
     }
     Ok(())
 }
@@ -240,9 +207,7 @@ pub fn check_name(name: &str) -> Result<(), String> {
 impl Graph {
     /// The graph's file.
     pub fn file_place(&self) -> Place {
-        self.source
-            .as_ref()
-            .map_or_else(Place::default, |source| Place::file(&source.name))
+        self.source.as_ref().map_or_else(Place::default, |source| Place::file(&source.name))
     }
 
     fn place_at(&self, node: &str, span: Option<&Span>) -> Place {
@@ -255,38 +220,25 @@ impl Graph {
 
     /// Where a node was written; its name and the file for a node that was added since.
     pub fn place(&self, node: &str) -> Place {
-        self.place_at(
-            node,
-            self.nodes.get(node).and_then(|n| n.spans.whole.as_ref()),
-        )
+        self.place_at(node, self.nodes.get(node).and_then(|n| n.spans.whole.as_ref()))
     }
 
     /// Where a node says its kind or its subgraph; otherwise where the node is.
     pub fn kind_place(&self, node: &str) -> Place {
         let spans = self.nodes.get(node).map(|n| &n.spans);
-        self.place_at(
-            node,
-            spans.and_then(|s| s.kind.as_ref().or(s.whole.as_ref())),
-        )
+        self.place_at(node, spans.and_then(|s| s.kind.as_ref().or(s.whole.as_ref())))
     }
 
     /// Where the value of a parameter was written; otherwise where the node is.
     pub fn param_place(&self, node: &str, param: &str) -> Place {
         let spans = self.nodes.get(node).map(|n| &n.spans);
-        self.place_at(
-            node,
-            spans.and_then(|s| s.params.get(param).or(s.whole.as_ref())),
-        )
-        .port(param)
+        self.place_at(node, spans.and_then(|s| s.params.get(param).or(s.whole.as_ref()))).port(param)
     }
 
     /// Where the value of an option was written; otherwise where the node is.
     pub fn option_place(&self, node: &str, option: &str) -> Place {
         let spans = self.nodes.get(node).map(|n| &n.spans);
-        self.place_at(
-            node,
-            spans.and_then(|s| s.options.get(option).or(s.whole.as_ref())),
-        )
+        self.place_at(node, spans.and_then(|s| s.options.get(option).or(s.whole.as_ref())))
     }
 
     /// Where a node's own WGSL begins and ends, without its quotes.

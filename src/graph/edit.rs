@@ -106,22 +106,11 @@ pub fn apply(graph: &mut Graph, edit: Edit) -> Result<Edit, EditError> {
         Edit::AddNode(name, node) => add_node(graph, name, *node)?,
         Edit::RemoveNode(name) => remove_node(graph, name)?,
         Edit::RenameNode(from, to) => rename_node(graph, from, to)?,
-        Edit::SetKind {
-            node,
-            kind,
-            graph: path,
-        } => {
+        Edit::SetKind { node, kind, graph: path } => {
             let target = node_mut(graph, &node)?;
             target.spans.kind = None;
-            let (kind, path) = (
-                replace(&mut target.kind, kind),
-                replace(&mut target.graph, path),
-            );
-            Edit::SetKind {
-                node,
-                kind,
-                graph: path,
-            }
+            let (kind, path) = (replace(&mut target.kind, kind), replace(&mut target.graph, path));
+            Edit::SetKind { node, kind, graph: path }
         }
         Edit::SetParam { node, param, value } => {
             let target = node_mut(graph, &node)?;
@@ -135,28 +124,16 @@ pub fn apply(graph: &mut Graph, edit: Edit) -> Result<Edit, EditError> {
                 Some(value) => target.params.insert(param.clone(), value),
                 None => target.params.remove(&param),
             };
-            Edit::SetParam {
-                node,
-                param,
-                value: before,
-            }
+            Edit::SetParam { node, param, value: before }
         }
-        Edit::SetOption {
-            node,
-            option,
-            value,
-        } => {
+        Edit::SetOption { node, option, value } => {
             let target = node_mut(graph, &node)?;
             target.spans.options.remove(&option);
             let before = match value {
                 Some(value) => target.options.insert(option.clone(), value),
                 None => target.options.remove(&option),
             };
-            Edit::SetOption {
-                node,
-                option,
-                value: before,
-            }
+            Edit::SetOption { node, option, value: before }
         }
         Edit::SetWgsl(node, wgsl) => {
             let target = node_mut(graph, &node)?;
@@ -196,15 +173,11 @@ pub fn apply(graph: &mut Graph, edit: Edit) -> Result<Edit, EditError> {
             Edit::Move(node, before)
         }
         Edit::SetOutput(output) => {
-            output
-                .iter()
-                .try_for_each(|end| has_node(graph, &end.node))?;
+            output.iter().try_for_each(|end| has_node(graph, &end.node))?;
             Edit::SetOutput(replace(&mut graph.output, output))
         }
         Edit::SetExpose(expose) => {
-            expose
-                .ends()
-                .try_for_each(|end| has_node(graph, &end.node))?;
+            expose.ends().try_for_each(|end| has_node(graph, &end.node))?;
             Edit::SetExpose(Box::new(replace(&mut graph.expose, *expose)))
         }
         Edit::Batch(edits) => batch(graph, edits)?,
@@ -212,35 +185,21 @@ pub fn apply(graph: &mut Graph, edit: Edit) -> Result<Edit, EditError> {
 }
 
 fn has_node(graph: &Graph, name: &str) -> Result<(), EditError> {
-    if graph.nodes.contains_key(name) {
-        Ok(())
-    } else {
-        Err(EditError::NoNode(name.into()))
-    }
+    if graph.nodes.contains_key(name) { Ok(()) } else { Err(EditError::NoNode(name.into())) }
 }
 
 fn node_mut<'a>(graph: &'a mut Graph, name: &str) -> Result<&'a mut Node, EditError> {
-    graph
-        .nodes
-        .get_mut(name)
-        .ok_or_else(|| EditError::NoNode(name.into()))
+    graph.nodes.get_mut(name).ok_or_else(|| EditError::NoNode(name.into()))
 }
 
 fn find_link(graph: &Graph, from: &End, to: &End) -> Result<usize, EditError> {
-    let found = graph
-        .links
-        .iter()
-        .position(|link| link.ends() == (from, to));
+    let found = graph.links.iter().position(|link| link.ends() == (from, to));
     found.ok_or_else(|| EditError::NoLink(format!("{from} -> {to}")))
 }
 
 fn free_name(graph: &Graph, name: &str) -> Result<(), EditError> {
     check_name(name).map_err(EditError::BadName)?;
-    if graph.nodes.contains_key(name) {
-        Err(EditError::NameTaken(name.into()))
-    } else {
-        Ok(())
-    }
+    if graph.nodes.contains_key(name) { Err(EditError::NameTaken(name.into())) } else { Ok(()) }
 }
 
 fn add_node(graph: &mut Graph, name: String, node: Node) -> Result<Edit, EditError> {
@@ -249,10 +208,7 @@ fn add_node(graph: &mut Graph, name: String, node: Node) -> Result<Edit, EditErr
         return Err(EditError::Full("nodes"));
     }
     for (param, value) in &node.params {
-        if value
-            .numbers()
-            .is_some_and(|numbers| !numbers.iter().all(|x| x.is_finite()))
-        {
+        if value.numbers().is_some_and(|numbers| !numbers.iter().all(|x| x.is_finite())) {
             return Err(EditError::NotFinite(param.clone()));
         }
     }
@@ -261,18 +217,10 @@ fn add_node(graph: &mut Graph, name: String, node: Node) -> Result<Edit, EditErr
 }
 
 fn remove_node(graph: &mut Graph, name: String) -> Result<Edit, EditError> {
-    let node = graph
-        .nodes
-        .remove(&name)
-        .ok_or_else(|| EditError::NoNode(name.clone()))?;
+    let node = graph.nodes.remove(&name).ok_or_else(|| EditError::NoNode(name.clone()))?;
     let mut undo = vec![Edit::AddNode(name.clone(), Box::new(node))];
     let gone = |link: &mut Link| link.from.node == name || link.to.node == name;
-    undo.extend(
-        graph
-            .links
-            .extract_if(.., gone)
-            .map(|link| Edit::Link(Box::new(link))),
-    );
+    undo.extend(graph.links.extract_if(.., gone).map(|link| Edit::Link(Box::new(link))));
     if graph.output.as_ref().is_some_and(|end| end.node == name) {
         undo.push(Edit::SetOutput(graph.output.take()));
     }
@@ -305,14 +253,8 @@ fn rename_node(graph: &mut Graph, from: String, to: String) -> Result<Edit, Edit
     if let Some(position) = graph.layout.remove(&from) {
         graph.layout.insert(to.clone(), position);
     }
-    let links = graph
-        .links
-        .iter_mut()
-        .flat_map(|link| [&mut link.from, &mut link.to]);
-    for end in links
-        .chain(&mut graph.output)
-        .chain(graph.expose.ends_mut())
-    {
+    let links = graph.links.iter_mut().flat_map(|link| [&mut link.from, &mut link.to]);
+    for end in links.chain(&mut graph.output).chain(graph.expose.ends_mut()) {
         if end.node == from {
             end.node.clone_from(&to);
         }
@@ -331,10 +273,7 @@ fn add_link(graph: &mut Graph, link: Link) -> Result<Edit, EditError> {
         return Err(EditError::Full("links"));
     }
     let (from, to) = (link.from.clone(), link.to.clone());
-    let Err(index) = graph
-        .links
-        .binary_search_by(|other| other.ends().cmp(&link.ends()))
-    else {
+    let Err(index) = graph.links.binary_search_by(|other| other.ends().cmp(&link.ends())) else {
         return Err(EditError::LinkTaken(link.to_string()));
     };
     graph.links.insert(index, link);

@@ -67,17 +67,9 @@ pub fn expand(root: &Graph, load: Loader<'_>) -> (Option<Graph>, Vec<Diagnostic>
         return (Some(root.clone()), Vec::new());
     }
     let mut expander = Expander::default();
-    let file: Arc<str> = root
-        .source
-        .as_ref()
-        .map_or_else(|| Arc::from(""), |source| source.name.as_str().into());
+    let file: Arc<str> = root.source.as_ref().map_or_else(|| Arc::from(""), |source| source.name.as_str().into());
     let graph = Arc::new(root.clone());
-    let mut tasks = vec![Task {
-        graph: graph.clone(),
-        chain: vec![file],
-        prefix: String::new(),
-        muted: false,
-    }];
+    let mut tasks = vec![Task { graph: graph.clone(), chain: vec![file], prefix: String::new(), muted: false }];
     while let Some(task) = tasks.pop() {
         if expander.place(&task, load, &mut tasks).is_none() {
             return (None, expander.found);
@@ -95,18 +87,11 @@ impl Expander {
     fn place(&mut self, task: &Task, load: Loader<'_>, tasks: &mut Vec<Task>) -> Option<()> {
         let Task { graph, prefix, .. } = task;
         let nodes = self.flat.nodes.len() + self.order.len() + graph.nodes.len();
-        self.text += graph
-            .nodes
-            .values()
-            .filter_map(|n| n.spans.whole.as_ref())
-            .map(|s| s.range.len())
-            .sum::<usize>();
+        self.text += graph.nodes.values().filter_map(|n| n.spans.whole.as_ref()).map(|s| s.range.len()).sum::<usize>();
         let links = self.links.len() + graph.links.len();
-        for (what, size, most) in [
-            ("nodes", nodes, MAX_NODES),
-            ("links", links, MAX_LINKS),
-            ("bytes", self.text, MAX_TEXT),
-        ] {
+        for (what, size, most) in
+            [("nodes", nodes, MAX_NODES), ("links", links, MAX_LINKS), ("bytes", self.text, MAX_TEXT)]
+        {
             if size > most {
                 let message = format!("with its subgraphs the graph has more than {most} {what}");
                 self.push(Diagnostic::error("ST0060", message, graph.file_place()));
@@ -122,8 +107,7 @@ impl Expander {
                 continue;
             };
             if task.chain.len() > MAX_NESTING {
-                let message =
-                    format!("subgraphs are nested more than {MAX_NESTING} deep at `{full}`");
+                let message = format!("subgraphs are nested more than {MAX_NESTING} deep at `{full}`");
                 self.push(Diagnostic::error("ST0063", message, graph.kind_place(name)));
                 return None;
             }
@@ -137,15 +121,7 @@ impl Expander {
                 muted: task.muted || node.muted,
             });
             let exported = exported(&inner);
-            self.stands.insert(
-                full.clone(),
-                Stand {
-                    inner,
-                    outer: graph.clone(),
-                    name: name.clone(),
-                    exported,
-                },
-            );
+            self.stands.insert(full.clone(), Stand { inner, outer: graph.clone(), name: name.clone(), exported });
             self.order.push(full);
         }
         for link in &graph.links {
@@ -157,18 +133,9 @@ impl Expander {
         Some(())
     }
 
-    fn load(
-        &mut self,
-        task: &Task,
-        name: &str,
-        path: &str,
-        load: Loader<'_>,
-    ) -> Option<(String, Arc<Graph>)> {
+    fn load(&mut self, task: &Task, name: &str, path: &str, load: Loader<'_>) -> Option<(String, Arc<Graph>)> {
         let place = task.graph.kind_place(name);
-        let by = task
-            .chain
-            .last()
-            .map_or_else(String::new, |file| file.to_string());
+        let by = task.chain.last().map_or_else(String::new, |file| file.to_string());
         let key = (path.to_string(), by.clone());
         if !self.loaded.contains_key(&key) {
             let result = match load(path, &by) {
@@ -192,15 +159,8 @@ impl Expander {
         }
         let (file, inner) = self.loaded.get(&key).cloned().flatten()?;
         if let Some(start) = task.chain.iter().position(|f| **f == *file) {
-            let cycle: Vec<&str> = task.chain[start..]
-                .iter()
-                .map(|f| &**f)
-                .chain([file.as_str()])
-                .collect();
-            let message = format!(
-                "these graph files contain each other: {}",
-                cycle.join(" -> ")
-            );
+            let cycle: Vec<&str> = task.chain[start..].iter().map(|f| &**f).chain([file.as_str()]).collect();
+            let message = format!("these graph files contain each other: {}", cycle.join(" -> "));
             self.push(Diagnostic::error("ST0062", message, place));
             return None;
         }
@@ -224,17 +184,11 @@ impl Expander {
             };
             for to in router.inputs(link.to.clone(), &place) {
                 let ends = (from.clone(), to.clone());
-                links.entry(ends).or_insert_with(|| Link {
-                    from: from.clone(),
-                    to,
-                    ..link.clone()
-                });
+                links.entry(ends).or_insert_with(|| Link { from: from.clone(), to, ..link.clone() });
             }
             if links.len() > MAX_LINKS || router.exhausted() {
-                let message =
-                    format!("with its subgraphs the graph has more than {MAX_LINKS} links");
-                self.found
-                    .push(Diagnostic::error("ST0060", message, root.file_place()));
+                let message = format!("with its subgraphs the graph has more than {MAX_LINKS} links");
+                self.found.push(Diagnostic::error("ST0060", message, root.file_place()));
                 return (None, self.found);
             }
         }
@@ -259,11 +213,7 @@ impl Expander {
         for cycle in check::cycles(flat) {
             check::push(&mut self.found, cycle, Place::default());
         }
-        let graph = if has_errors(&self.found) {
-            None
-        } else {
-            Some(self.flat)
-        };
+        let graph = if has_errors(&self.found) { None } else { Some(self.flat) };
         (graph, self.found)
     }
 }

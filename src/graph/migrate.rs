@@ -21,20 +21,12 @@ pub(super) fn migrate(fields: &mut Vec<Field>, root: &Node, report: &mut Report)
     };
     let place = field.value.place(&report.source);
     let Ok(version) = field.value.as_u64(&report.source, u64::from(u32::MAX)) else {
-        let message = format!(
-            "a version is a whole number, not {}",
-            field.value.value.describe()
-        );
-        report.push(
-            Diagnostic::error("ST0051", message, place)
-                .help(format!("this format is `version: {VERSION}`")),
-        );
+        let message = format!("a version is a whole number, not {}", field.value.value.describe());
+        report.push(Diagnostic::error("ST0051", message, place).help(format!("this format is `version: {VERSION}`")));
         return true;
     };
     if version > u64::from(VERSION) {
-        let message = format!(
-            "the graph is of version {version}, and versions up to {VERSION} can be read here"
-        );
+        let message = format!("the graph is of version {version}, and versions up to {VERSION} can be read here");
         report.push(Diagnostic::error("ST0052", message, place).help("use a newer shadetree"));
         return false;
     }
@@ -69,25 +61,12 @@ fn from_0(fields: &mut Vec<Field>) {
         return;
     }
     match fields.iter_mut().find(|f| f.name == "layout") {
-        Some(Field {
-            value: Node {
-                value: Tree::Map(layout),
-                ..
-            },
-            ..
-        }) => layout.extend(positions),
+        Some(Field { value: Node { value: Tree::Map(layout), .. }, .. }) => layout.extend(positions),
         Some(_) => {} // Not a map: told when it is read.
         None => {
             let span = positions[0].1.span.clone();
-            let value = Node {
-                span: span.clone(),
-                value: Tree::Map(positions),
-            };
-            fields.push(Field {
-                name: "layout".into(),
-                name_span: span,
-                value,
-            });
+            let value = Node { span: span.clone(), value: Tree::Map(positions) };
+            fields.push(Field { name: "layout".into(), name_span: span, value });
         }
     }
 }
@@ -110,17 +89,7 @@ fn link_from_0(link: &mut Node) {
     if fields.is_empty() {
         link.value = text;
     } else {
-        let value = Node {
-            span: link.span.clone(),
-            value: text,
-        };
-        fields.insert(
-            0,
-            Field {
-                name: "link".into(),
-                name_span: link.span.clone(),
-                value,
-            },
-        );
+        let value = Node { span: link.span.clone(), value: text };
+        fields.insert(0, Field { name: "link".into(), name_span: link.span.clone(), value });
     }
 }

@@ -42,61 +42,22 @@ pub const MAX_NESTING: usize = 32;
 /// What each code of this module means, for `shadetree explain`.
 pub const CODES: &[(&str, &str)] = &[
     ("ST0050", "The file does not hold a `Graph(...)`."),
-    (
-        "ST0051",
-        "The graph does not say `version: 1`, or says something that is not a version.",
-    ),
-    (
-        "ST0052",
-        "The graph was written by a newer version of shadetree.",
-    ),
-    (
-        "ST0053",
-        "A node has a name that links cannot spell. Names consist of letters, digits, `_`, `-` and spaces.",
-    ),
-    (
-        "ST0054",
-        "A node must say either which `kind` it is or which `graph` file stands in its place.",
-    ),
-    (
-        "ST0055",
-        "A link, output or exposed end is not written as `node`, `node.port` or `from -> to`.",
-    ),
-    (
-        "ST0056",
-        "A link, output, exposed end or position names a node that is not in the graph.",
-    ),
+    ("ST0051", "The graph does not say `version: 1`, or says something that is not a version."),
+    ("ST0052", "The graph was written by a newer version of shadetree."),
+    ("ST0053", "A node has a name that links cannot spell. Names consist of letters, digits, `_`, `-` and spaces."),
+    ("ST0054", "A node must say either which `kind` it is or which `graph` file stands in its place."),
+    ("ST0055", "A link, output or exposed end is not written as `node`, `node.port` or `from -> to`."),
+    ("ST0056", "A link, output, exposed end or position names a node that is not in the graph."),
     ("ST0057", "A link leads from a node to itself."),
     ("ST0058", "The same link is given twice."),
-    (
-        "ST0059",
-        "The links form a cycle, so no node of it can be computed first.",
-    ),
-    (
-        "ST0060",
-        "The graph has more nodes or links than are handled.",
-    ),
-    (
-        "ST0061",
-        "A parameter has a value that is neither a truth value, nor numbers, nor a text.",
-    ),
+    ("ST0059", "The links form a cycle, so no node of it can be computed first."),
+    ("ST0060", "The graph has more nodes or links than are handled."),
+    ("ST0061", "A parameter has a value that is neither a truth value, nor numbers, nor a text."),
     ("ST0062", "Subgraph files contain each other in a cycle."),
     ("ST0063", "Subgraphs are nested more deeply than 32 levels."),
-    (
-        "ST0064",
-        "A subgraph does not expose the input, output, parameter or option that is used.",
-    ),
-    (
-        "ST0065",
-        "A link to or from a subgraph names no port, and the subgraph offers several.",
-    ),
-    (
-        "ST0066",
-        "The graph has too many mistakes to list them all.",
-    ),
-    (
-        "ST0067",
-        "A parameter or option inside a subgraph is set twice, through two names.",
-    ),
+    ("ST0064", "A subgraph does not expose the input, output, parameter or option that is used."),
+    ("ST0065", "A link to or from a subgraph names no port, and the subgraph offers several."),
+    ("ST0066", "The graph has too many mistakes to list them all."),
+    ("ST0067", "A parameter or option inside a subgraph is set twice, through two names."),
     ("ST0068", "A subgraph could not be loaded."),
 ];

@@ -61,10 +61,7 @@ impl Report {
 /// something.
 pub fn read(source: &Arc<SourceText>) -> (Option<Graph>, Vec<Diagnostic>) {
     let (document, found) = ron::read(source);
-    let mut report = Report {
-        source: source.clone(),
-        found,
-    };
+    let mut report = Report { source: source.clone(), found };
     let graph = document.and_then(|document| graph(&document, &mut report));
     (graph, report.found)
 }
@@ -76,10 +73,7 @@ fn graph(document: &ron::Document, report: &mut Report) -> Option<Graph> {
         return None;
     }
     let source = report.source.clone();
-    let mut graph = Graph {
-        source: Some(source.clone()),
-        ..Graph::default()
-    };
+    let mut graph = Graph { source: Some(source.clone()), ..Graph::default() };
     for (name, text) in [("name", &mut graph.name), ("note", &mut graph.note)] {
         let given = field(&fields, name).and_then(|node| report.take(node.as_str(&source)));
         *text = given.unwrap_or_default().to_string();
@@ -93,13 +87,7 @@ fn graph(document: &ron::Document, report: &mut Report) -> Option<Graph> {
     }
     if let Some(output) = field(&fields, "output") {
         graph.output = report.end(output);
-        check::end_exists(
-            &graph,
-            graph.output.as_ref(),
-            "the output",
-            || output.place(&source),
-            report,
-        );
+        check::end_exists(&graph, graph.output.as_ref(), "the output", || output.place(&source), report);
     }
     if let Some(node) = field(&fields, "expose") {
         graph.expose = expose(node, &graph, report);
@@ -107,9 +95,7 @@ fn graph(document: &ron::Document, report: &mut Report) -> Option<Graph> {
     if let Some(map) = field(&fields, "layout").and_then(|n| report.take(n.as_map(&source))) {
         graph.layout = layout(map, &graph, report);
     }
-    let known = [
-        "version", "name", "note", "nodes", "links", "output", "expose", "layout",
-    ];
+    let known = ["version", "name", "note", "nodes", "links", "output", "expose", "layout"];
     graph.unknown = report.unknown(&fields, &known);
     comments::keep(document, &source.text, items, &mut graph);
     graph.sort_links();
@@ -138,15 +124,8 @@ fn root_fields(root: &Node, report: &mut Report) -> Option<Vec<Field>> {
 
 fn links(list: &[Node], graph: &mut Graph, items: &mut Vec<Item>, report: &mut Report) {
     if list.len() > MAX_LINKS {
-        let message = format!(
-            "the graph has {} links; at most {MAX_LINKS} are handled",
-            list.len()
-        );
-        report.push(Diagnostic::error(
-            "ST0060",
-            message,
-            report.at(list[MAX_LINKS].span.clone()),
-        ));
+        let message = format!("the graph has {} links; at most {MAX_LINKS} are handled", list.len());
+        report.push(Diagnostic::error("ST0060", message, report.at(list[MAX_LINKS].span.clone())));
         return;
     }
     let mut seen: BTreeMap<(End, End), usize> = BTreeMap::new();
@@ -156,16 +135,10 @@ fn links(list: &[Node], graph: &mut Graph, items: &mut Vec<Item>, report: &mut R
         };
         let ends = (link.from.clone(), link.to.clone());
         let index = *seen.entry(ends).or_insert(graph.links.len());
-        items.push(Item {
-            span: node.span.clone(),
-            target: Target::Link(index),
-        });
+        items.push(Item { span: node.span.clone(), target: Target::Link(index) });
         if let Some(first) = graph.links.get_mut(index) {
             let message = format!("the link `{link}` is given twice");
-            report.push(
-                Diagnostic::warning("ST0058", message, node.place(&report.source))
-                    .help("remove one of them"),
-            );
+            report.push(Diagnostic::warning("ST0058", message, node.place(&report.source)).help("remove one of them"));
             comments::append(&mut first.note, &link.note);
             first.unknown.extend(link.unknown);
             continue;
@@ -180,11 +153,7 @@ fn link(node: &Node, report: &mut Report) -> Option<Link> {
     let (ends, fields) = match &node.value {
         Tree::Struct(_, fields) => {
             let Some(ends) = field(fields, "link") else {
-                let missing = Diagnostic::error(
-                    "ST0011",
-                    "the link has no field `link`",
-                    node.place(&source),
-                );
+                let missing = Diagnostic::error("ST0011", "the link has no field `link`", node.place(&source));
                 report.push(missing.help("write `(link: \"from -> to\", note: \"...\")`"));
                 return None;
             };
@@ -212,26 +181,15 @@ fn link(node: &Node, report: &mut Report) -> Option<Link> {
 fn expose(node: &Node, graph: &Graph, report: &mut Report) -> Expose {
     let source = report.source.clone();
     let what = "`(inputs: {...}, outputs: {...}, options: {...})`";
-    let fields = report
-        .take(expect_fields(node, &source, what))
-        .unwrap_or_default();
-    let mut expose = Expose {
-        unknown: report.unknown(fields, &["inputs", "outputs", "options"]),
-        ..Expose::default()
-    };
-    for (name, fans) in [
-        ("inputs", &mut expose.inputs),
-        ("options", &mut expose.options),
-    ] {
+    let fields = report.take(expect_fields(node, &source, what)).unwrap_or_default();
+    let mut expose = Expose { unknown: report.unknown(fields, &["inputs", "outputs", "options"]), ..Expose::default() };
+    for (name, fans) in [("inputs", &mut expose.inputs), ("options", &mut expose.options)] {
         for (public, value) in entries(fields, name, report) {
             let nodes = match &value.value {
                 Tree::List(nodes) => nodes.as_slice(),
                 _ => std::slice::from_ref(value),
             };
-            let ends = nodes
-                .iter()
-                .filter_map(|node| exposed(node, graph, report))
-                .collect();
+            let ends = nodes.iter().filter_map(|node| exposed(node, graph, report)).collect();
             fans.insert(public, ends);
         }
     }
@@ -246,25 +204,15 @@ fn expose(node: &Node, graph: &Graph, report: &mut Report) -> Expose {
 fn exposed(node: &Node, graph: &Graph, report: &mut Report) -> Option<End> {
     let source = report.source.clone();
     let end = report.end(node)?;
-    check::end_exists(
-        graph,
-        Some(&end),
-        "an exposed end",
-        || node.place(&source),
-        report,
-    );
+    check::end_exists(graph, Some(&end), "an exposed end", || node.place(&source), report);
     Some(end)
 }
 
 /// The entries of a map field whose keys are texts.
 fn entries<'a>(fields: &'a [Field], name: &str, report: &mut Report) -> Vec<(String, &'a Node)> {
     let source = report.source.clone();
-    let map = field(fields, name)
-        .and_then(|n| report.take(n.as_map(&source)))
-        .unwrap_or_default();
-    map.iter()
-        .filter_map(|(key, value)| Some((report.take(key.as_str(&source))?.to_string(), value)))
-        .collect()
+    let map = field(fields, name).and_then(|n| report.take(n.as_map(&source))).unwrap_or_default();
+    map.iter().filter_map(|(key, value)| Some((report.take(key.as_str(&source))?.to_string(), value))).collect()
 }
 
 fn layout(map: &[(Node, Node)], graph: &Graph, report: &mut Report) -> BTreeMap<String, [f64; 2]> {

@@ -7,26 +7,12 @@ use crate::diagnostic::{Diagnostic, Span};
 use crate::ron::{self, Tree, expect_fields, field};
 use crate::semantic::Value;
 
-const KNOWN: [&str; 7] = [
-    "kind", "graph", "wgsl", "params", "options", "muted", "note",
-];
+const KNOWN: [&str; 7] = ["kind", "graph", "wgsl", "params", "options", "muted", "note"];
 
-pub(super) fn nodes(
-    map: &[(ron::Node, ron::Node)],
-    graph: &mut Graph,
-    items: &mut Vec<Item>,
-    report: &mut Report,
-) {
+pub(super) fn nodes(map: &[(ron::Node, ron::Node)], graph: &mut Graph, items: &mut Vec<Item>, report: &mut Report) {
     if map.len() > MAX_NODES {
-        let message = format!(
-            "the graph has {} nodes; at most {MAX_NODES} are handled",
-            map.len()
-        );
-        report.push(Diagnostic::error(
-            "ST0060",
-            message,
-            report.at(map[MAX_NODES].0.span.clone()),
-        ));
+        let message = format!("the graph has {} nodes; at most {MAX_NODES} are handled", map.len());
+        report.push(Diagnostic::error("ST0060", message, report.at(map[MAX_NODES].0.span.clone())));
         return;
     }
     let source = report.source.clone();
@@ -36,31 +22,22 @@ pub(super) fn nodes(
         };
         if let Err(message) = check_name(name) {
             let help = "use letters, digits, `_`, `-` and inner spaces";
-            report.push(
-                Diagnostic::error("ST0053", message, key.place(&source).node(name)).help(help),
-            );
+            report.push(Diagnostic::error("ST0053", message, key.place(&source).node(name)).help(help));
         }
         let span = key.span.start..value.span.end;
         let mut node = node(name, value, report);
         node.spans.whole = Some(Span::new(&source, span.clone()));
-        items.push(Item {
-            span,
-            target: Target::Node(name.to_string()),
-        });
+        items.push(Item { span, target: Target::Node(name.to_string()) });
         graph.nodes.insert(name.to_string(), node);
     }
 }
 
 fn node(name: &str, value: &ron::Node, report: &mut Report) -> Node {
     let source = report.source.clone();
-    let Some(fields) = report.take(expect_fields(value, &source, "a node `(kind: \"...\")`"))
-    else {
+    let Some(fields) = report.take(expect_fields(value, &source, "a node `(kind: \"...\")`")) else {
         return Node::default();
     };
-    let mut node = Node {
-        unknown: report.unknown(fields, &KNOWN),
-        ..Node::default()
-    };
+    let mut node = Node { unknown: report.unknown(fields, &KNOWN), ..Node::default() };
     let mut text = |field_name: &str| {
         let given = field(fields, field_name)?;
         let text = report.take(given.as_str(&source))?;
@@ -78,17 +55,8 @@ fn node(name: &str, value: &ron::Node, report: &mut Report) -> Node {
     if let Some((wgsl, given)) = text("wgsl") {
         let start = given.content_start(&source);
         let raw = source.text[given.span.clone()].starts_with('r');
-        let closing = source.text[given.span.clone()]
-            .bytes()
-            .rev()
-            .take_while(|&b| b == b'#')
-            .count()
-            + 1;
-        let end = if raw {
-            start + wgsl.len()
-        } else {
-            given.span.end.saturating_sub(closing)
-        };
+        let closing = source.text[given.span.clone()].bytes().rev().take_while(|&b| b == b'#').count() + 1;
+        let end = if raw { start + wgsl.len() } else { given.span.end.saturating_sub(closing) };
         node.spans.wgsl = Some(Span::new(&source, start..end.max(start)));
         node.wgsl = Some(wgsl);
     }
@@ -104,8 +72,7 @@ fn node(name: &str, value: &ron::Node, report: &mut Report) -> Node {
             None => format!("the node `{name}` does not say what it is"),
         };
         let help = "give it one of `kind: \"...\"` and `graph: \"file.ron\"`";
-        report
-            .push(Diagnostic::error("ST0054", message, value.place(&source).node(name)).help(help));
+        report.push(Diagnostic::error("ST0054", message, value.place(&source).node(name)).help(help));
     }
     settings(name, fields, &mut node, report);
     node
@@ -114,23 +81,10 @@ fn node(name: &str, value: &ron::Node, report: &mut Report) -> Node {
 /// Parameters and options.
 fn settings(name: &str, fields: &[ron::Field], node: &mut Node, report: &mut Report) {
     let source = report.source.clone();
-    let Node {
-        params,
-        options,
-        spans,
-        ..
-    } = node;
-    let Spans {
-        params: param_spans,
-        options: option_spans,
-        ..
-    } = spans;
-    let each = |field_name: &str,
-                report: &mut Report,
-                take: &mut dyn FnMut(&str, &ron::Node, &mut Report)| {
-        let map = field(fields, field_name)
-            .and_then(|n| report.take(n.as_map(&source)))
-            .unwrap_or_default();
+    let Node { params, options, spans, .. } = node;
+    let Spans { params: param_spans, options: option_spans, .. } = spans;
+    let each = |field_name: &str, report: &mut Report, take: &mut dyn FnMut(&str, &ron::Node, &mut Report)| {
+        let map = field(fields, field_name).and_then(|n| report.take(n.as_map(&source))).unwrap_or_default();
         for (key, value) in map {
             if let Some(key) = report.take(key.as_str(&source)) {
                 take(key, value, report);

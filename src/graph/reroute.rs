@@ -29,12 +29,7 @@ impl<'a> Router<'a> {
         flat: &'a mut Graph,
         found: &'a mut Vec<Diagnostic>,
     ) -> Self {
-        Self {
-            stands,
-            flat,
-            found,
-            steps: 0,
-        }
+        Self { stands, flat, found, steps: 0 }
     }
 
     /// Whether exposed names fan out beyond what is followed.
@@ -70,19 +65,12 @@ impl<'a> Router<'a> {
 
     /// What the root exposes, in place.
     pub(super) fn expose(&mut self, expose: &Expose, place: &Place) -> Expose {
-        let mut led = Expose {
-            unknown: expose.unknown.clone(),
-            ..Expose::default()
-        };
-        for (fans, out, what) in [
-            (&expose.inputs, &mut led.inputs, What::Link),
-            (&expose.options, &mut led.options, What::Option),
-        ] {
+        let mut led = Expose { unknown: expose.unknown.clone(), ..Expose::default() };
+        for (fans, out, what) in
+            [(&expose.inputs, &mut led.inputs, What::Link), (&expose.options, &mut led.options, What::Option)]
+        {
             for (public, ends) in fans {
-                let ends = ends
-                    .iter()
-                    .flat_map(|end| self.lead(end.clone(), what, place))
-                    .collect();
+                let ends = ends.iter().flat_map(|end| self.lead(end.clone(), what, place)).collect();
                 out.insert(public.clone(), ends);
             }
         }
@@ -115,20 +103,14 @@ impl<'a> Router<'a> {
             };
             for target in self.lead(end, what, &place) {
                 let Some(port) = &target.port else {
-                    let message = format!(
-                        "`{key}` leads to a whole node of `{full}`, which takes links and no value"
-                    );
+                    let message = format!("`{key}` leads to a whole node of `{full}`, which takes links and no value");
                     self.push(Diagnostic::error("ST0064", message, place.clone()));
                     continue;
                 };
                 let Some(inside) = self.flat.nodes.get_mut(&target.node) else {
-                    let message = format!(
-                        "`{key}` names the node `{}`, which is not in the subgraph",
-                        target.node
-                    );
+                    let message = format!("`{key}` names the node `{}`, which is not in the subgraph", target.node);
                     let names = self.flat.nodes.keys().map(String::as_str);
-                    let near = did_you_mean(&target.node, names)
-                        .map(|near| format!("did you mean `{near}`?"));
+                    let near = did_you_mean(&target.node, names).map(|near| format!("did you mean `{near}`?"));
                     let mut error = Diagnostic::error("ST0064", message, place.clone());
                     error.help = near;
                     self.push(error);
@@ -136,35 +118,18 @@ impl<'a> Router<'a> {
                 };
                 if what == What::Option {
                     let span = node.spans.options.get(key).cloned();
-                    inside.options.extend(
-                        node.options
-                            .get(key)
-                            .map(|value| (port.clone(), value.clone())),
-                    );
+                    inside.options.extend(node.options.get(key).map(|value| (port.clone(), value.clone())));
                     inside.spans.options.remove(port);
-                    inside
-                        .spans
-                        .options
-                        .extend(span.map(|span| (port.clone(), span)));
+                    inside.spans.options.extend(span.map(|span| (port.clone(), span)));
                 } else {
                     let span = node.spans.params.get(key).cloned();
-                    inside.params.extend(
-                        node.params
-                            .get(key)
-                            .map(|value| (port.clone(), value.clone())),
-                    );
+                    inside.params.extend(node.params.get(key).map(|value| (port.clone(), value.clone())));
                     inside.spans.params.remove(port);
-                    inside
-                        .spans
-                        .params
-                        .extend(span.map(|span| (port.clone(), span)));
+                    inside.spans.params.extend(span.map(|span| (port.clone(), span)));
                 }
                 if let Some(other) = set.insert((what == What::Option, target.clone()), key) {
                     let message = format!("`{other}` and `{key}` both set `{target}`");
-                    self.push(
-                        Diagnostic::error("ST0067", message, place.clone())
-                            .help("remove one of them"),
-                    );
+                    self.push(Diagnostic::error("ST0067", message, place.clone()).help("remove one of them"));
                 }
             }
         }
@@ -195,8 +160,7 @@ impl<'a> Router<'a> {
                 Some(port) => match fans.get(port) {
                     Some(ends) => ends,
                     None => {
-                        let _: Option<End> =
-                            self.not_exposed(word, port, &end.node, fans.keys(), place);
+                        let _: Option<End> = self.not_exposed(word, port, &end.node, fans.keys(), place);
                         continue;
                     }
                 },
@@ -266,8 +230,5 @@ fn offered<'b>(exposed: impl Iterator<Item = &'b String>) -> String {
 }
 
 fn within(stand: &str, end: &End) -> End {
-    End {
-        node: format!("{stand}/{}", end.node),
-        port: end.port.clone(),
-    }
+    End { node: format!("{stand}/{}", end.node), port: end.port.clone() }
 }

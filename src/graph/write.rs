@@ -15,20 +15,11 @@ pub fn write(graph: &Graph) -> String {
             out += &format!("    {field}: {},\n", ron::text(text));
         }
     }
-    let nodes = graph
-        .nodes
-        .iter()
-        .map(|(name, node)| format!("{}: {}", ron::text(name), node_text(node)));
+    let nodes = graph.nodes.iter().map(|(name, node)| format!("{}: {}", ron::text(name), node_text(node)));
     block(&mut out, 1, "nodes", ['{', '}'], nodes);
     let mut links: Vec<&Link> = graph.links.iter().collect();
     links.sort_by(|a, b| a.ends().cmp(&b.ends()));
-    block(
-        &mut out,
-        1,
-        "links",
-        ['[', ']'],
-        links.into_iter().map(link_text),
-    );
+    block(&mut out, 1, "links", ['[', ']'], links.into_iter().map(link_text));
     if let Some(output) = &graph.output {
         out += &format!("    output: {},\n", end_text(output));
     }
@@ -36,27 +27,17 @@ pub fn write(graph: &Graph) -> String {
     for (name, value) in &graph.unknown {
         out += &format!("    {}: {},\n", ron::identifier(name), ron::inline(value));
     }
-    let layout = graph.layout.iter().map(|(name, [x, y])| {
-        format!(
-            "{}: ({}, {})",
-            ron::text(name),
-            ron::number(*x),
-            ron::number(*y)
-        )
-    });
+    let layout = graph
+        .layout
+        .iter()
+        .map(|(name, [x, y])| format!("{}: ({}, {})", ron::text(name), ron::number(*x), ron::number(*y)));
     block(&mut out, 1, "layout", ['{', '}'], layout);
     out.push_str(")\n");
     out
 }
 
 /// `field: {` one item a line `},`; nothing where there are no items.
-fn block(
-    out: &mut String,
-    level: usize,
-    field: &str,
-    [open, close]: [char; 2],
-    items: impl Iterator<Item = String>,
-) {
+fn block(out: &mut String, level: usize, field: &str, [open, close]: [char; 2], items: impl Iterator<Item = String>) {
     let indent = "    ".repeat(level);
     let mut items = items.peekable();
     if items.peek().is_none() {
@@ -79,15 +60,9 @@ fn node_text(node: &Node) -> String {
             fields.push(format!("{field}: {}", ron::text(text)));
         }
     }
-    let params = node
-        .params
-        .iter()
-        .map(|(name, value)| format!("{}: {}", ron::text(name), value_text(value)));
+    let params = node.params.iter().map(|(name, value)| format!("{}: {}", ron::text(name), value_text(value)));
     inline_map(&mut fields, "params", params);
-    let options = node
-        .options
-        .iter()
-        .map(|(name, value)| format!("{}: {}", ron::text(name), ron::text(value)));
+    let options = node.options.iter().map(|(name, value)| format!("{}: {}", ron::text(name), ron::text(value)));
     inline_map(&mut fields, "options", options);
     if node.muted {
         fields.push("muted: true".into());
@@ -155,31 +130,12 @@ fn expose(out: &mut String, expose: &Expose) {
         ends.iter().map(one).collect()
     };
     out.push_str("    expose: (\n");
-    block(
-        out,
-        2,
-        "inputs",
-        ['{', '}'],
-        fans(&expose.inputs).into_iter(),
-    );
-    let outputs = expose
-        .outputs
-        .iter()
-        .map(|(name, end)| format!("{}: {}", ron::text(name), end_text(end)));
+    block(out, 2, "inputs", ['{', '}'], fans(&expose.inputs).into_iter());
+    let outputs = expose.outputs.iter().map(|(name, end)| format!("{}: {}", ron::text(name), end_text(end)));
     block(out, 2, "outputs", ['{', '}'], outputs);
-    block(
-        out,
-        2,
-        "options",
-        ['{', '}'],
-        fans(&expose.options).into_iter(),
-    );
+    block(out, 2, "options", ['{', '}'], fans(&expose.options).into_iter());
     for (name, value) in &expose.unknown {
-        *out += &format!(
-            "        {}: {},\n",
-            ron::identifier(name),
-            ron::inline(value)
-        );
+        *out += &format!("        {}: {},\n", ron::identifier(name), ron::inline(value));
     }
     out.push_str("    ),\n");
 }

@@ -44,28 +44,13 @@ impl LibraryFile {
             let (header, mut found) = header::parse(&source, false);
             let mut report = Report::new(&source);
             let applied = file::apply(&mut report, &[], &[]);
-            for d in applied
-                .declarations
-                .iter()
-                .filter(|d| d.entry || matches!(d.keyword, "var" | "override"))
-            {
+            for d in applied.declarations.iter().filter(|d| d.entry || matches!(d.keyword, "var" | "override")) {
                 let place = applied.kept.original_range(d.name_range.clone());
-                report.error(
-                    "ST125",
-                    place,
-                    format!("`{}` cannot stand in a library", d.name),
-                );
+                report.error("ST0125", place, format!("`{}` cannot stand in a library", d.name));
             }
             found.extend(report.found);
             let items = file::items_of(&applied);
-            (
-                Library {
-                    name: stem(&self.path).to_owned(),
-                    uses: header.uses,
-                    items,
-                },
-                found,
-            )
+            (Library { name: stem(&self.path).to_owned(), uses: header.uses, items }, found)
         })
     }
 }
@@ -91,31 +76,15 @@ impl Catalog {
         .clone()
     }
 
-    fn insert_library(
-        &mut self,
-        path: Cow<'static, str>,
-        text: Cow<'static, str>,
-    ) -> Arc<LibraryFile> {
-        let file = Arc::new(LibraryFile {
-            path,
-            text,
-            read: OnceLock::new(),
-        });
-        self.libraries
-            .insert(stem(&file.path).to_owned(), file.clone());
+    fn insert_library(&mut self, path: Cow<'static, str>, text: Cow<'static, str>) -> Arc<LibraryFile> {
+        let file = Arc::new(LibraryFile { path, text, read: OnceLock::new() });
+        self.libraries.insert(stem(&file.path).to_owned(), file.clone());
         file
     }
 
     fn insert_pass(&mut self, path: Cow<'static, str>, text: Cow<'static, str>) {
         let name = stem(&path).to_owned();
-        self.passes.insert(
-            name,
-            Arc::new(PassEntry {
-                path,
-                text,
-                read: OnceLock::new(),
-            }),
-        );
+        self.passes.insert(name, Arc::new(PassEntry { path, text, read: OnceLock::new() }));
     }
 
     /// Adds a node file under a name like `folder/kind.wgsl`, verified against the libraries added so far. A file
@@ -127,15 +96,10 @@ impl Catalog {
             return found;
         }
         if let Some(old) = self.files.get(file.kind()) {
-            let whose = if old.is_embedded() {
-                "comes with the program"
-            } else {
-                "was read before"
-            };
+            let whose = if old.is_embedded() { "comes with the program" } else { "was read before" };
             let message = format!("`{}` takes the place of a node that {whose}", file.kind());
             found.push(
-                Diagnostic::warning("ST132", message, Place::file(name))
-                    .help("rename the file to have both nodes"),
+                Diagnostic::warning("ST0132", message, Place::file(name)).help("rename the file to have both nodes"),
             );
         }
         self.files.insert(file.kind().to_owned(), Arc::new(file));
@@ -147,7 +111,7 @@ impl Catalog {
         let source = SourceText::new(name, text);
         if let Some((range, message)) = super::check::guard(text, 1 << 20) {
             let mut report = Report::new(&source);
-            report.error("ST130", range, message);
+            report.error("ST0130", range, message);
             return report.found;
         }
         let mut trial = self.clone();
@@ -227,9 +191,7 @@ impl Catalog {
     /// What is wrong with its header.
     pub fn pass(&self, name: &str) -> Option<Result<&PassFile, Vec<Diagnostic>>> {
         let entry = self.passes.get(name)?;
-        let read = entry
-            .read
-            .get_or_init(|| PassFile::parse(&SourceText::new(&*entry.path, &*entry.text)));
+        let read = entry.read.get_or_init(|| PassFile::parse(&SourceText::new(&*entry.path, &*entry.text)));
         Some(read.as_ref().map_err(Clone::clone))
     }
 
@@ -251,31 +213,20 @@ impl Catalog {
             names.extend(all.map(|n| (n.to_lowercase(), kind)));
         }
         let near = did_you_mean(&spoken, names.iter().map(|(n, _)| n.as_str()))?;
-        names
-            .iter()
-            .find(|(n, _)| n == near)
-            .map(|(_, kind)| (*kind).to_owned())
+        names.iter().find(|(n, _)| n == near).map(|(_, kind)| (*kind).to_owned())
     }
 
     fn headers(&self) -> impl Iterator<Item = (&str, Arc<Header>)> {
-        self.files
-            .iter()
-            .filter_map(|(kind, file)| Some((kind.as_str(), file.header().ok()?)))
+        self.files.iter().filter_map(|(kind, file)| Some((kind.as_str(), file.header().ok()?)))
     }
 
     /// Node files that have to do with every word of `query`, best first: kind, label, synonym, category, description.
     pub fn search(&self, query: &str) -> Vec<&Arc<NodeFile>> {
-        let words: Vec<String> = query
-            .to_lowercase()
-            .split_whitespace()
-            .take(16)
-            .map(str::to_owned)
-            .collect();
+        let words: Vec<String> = query.to_lowercase().split_whitespace().take(16).map(str::to_owned).collect();
         let mut ranked: Vec<(usize, &str, &Arc<NodeFile>)> = Vec::new();
         for (kind, file) in &self.files {
             let Ok(header) = file.header() else { continue };
-            let scores: Option<Vec<usize>> =
-                words.iter().map(|w| score(kind, &header, w)).collect();
+            let scores: Option<Vec<usize>> = words.iter().map(|w| score(kind, &header, w)).collect();
             if let Some(scores) = scores {
                 ranked.push((scores.iter().sum(), kind, file));
             }

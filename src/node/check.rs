@@ -22,10 +22,7 @@ const STACK: usize = 256 << 20;
 /// Whether a text is small and flat enough to be parsed: the place of the first offence, and what it is.
 pub(crate) fn guard(text: &str, max_bytes: usize) -> Option<(Range<usize>, String)> {
     if text.len() > max_bytes {
-        return Some((
-            0..0,
-            format!("the text has {} bytes, more than {max_bytes}", text.len()),
-        ));
+        return Some((0..0, format!("the text has {} bytes, more than {max_bytes}", text.len())));
     }
     // Tokens since the last separator, for each bracket that is open: an upper bound of how deep syntax trees get.
     let (mut open, mut braces, mut elses) = (vec![0usize], 0usize, 0usize);
@@ -45,9 +42,7 @@ pub(crate) fn guard(text: &str, max_bytes: usize) -> Option<(Range<usize>, Strin
                     total -= open.last_mut().map_or(0, std::mem::take);
                 }
             }
-            TokenKind::Punctuation(b';' | b',') => {
-                total -= open.last_mut().map_or(0, std::mem::take)
-            }
+            TokenKind::Punctuation(b';' | b',') => total -= open.last_mut().map_or(0, std::mem::take),
             TokenKind::Word if &text[range.clone()] == "else" => elses += 1,
             TokenKind::Word if braces == 0 && &text[range.clone()] == "fn" => elses = 0,
             _ => {}
@@ -60,10 +55,7 @@ pub(crate) fn guard(text: &str, max_bytes: usize) -> Option<(Range<usize>, Strin
             return Some((range, format!("brackets nest deeper than {MAX_BRACKETS}")));
         }
         if total > MAX_STATEMENT {
-            return Some((
-                range,
-                format!("a statement has more than {MAX_STATEMENT} words"),
-            ));
+            return Some((range, format!("a statement has more than {MAX_STATEMENT} words")));
         }
         if elses > MAX_ELSE {
             return Some((range, format!("a function has more than {MAX_ELSE} `else`")));
@@ -74,18 +66,13 @@ pub(crate) fn guard(text: &str, max_bytes: usize) -> Option<(Range<usize>, Strin
 
 /// Whether `name` is a type or function that WGSL itself declares.
 pub(crate) fn is_builtin(name: &str) -> bool {
-    naga::keywords::wgsl::BUILTIN_IDENTIFIERS.contains(&name)
-        || FUNCTIONS.contains(&name)
-        || is_short_type(name)
+    naga::keywords::wgsl::BUILTIN_IDENTIFIERS.contains(&name) || FUNCTIONS.contains(&name) || is_short_type(name)
 }
 
 /// `vec3f`, `mat4x4h` and their like.
 fn is_short_type(name: &str) -> bool {
     let size = |s: &str| matches!(s.strip_suffix(['f', 'h', 'i', 'u']), Some("2" | "3" | "4"));
-    let columns = |s: &str| {
-        s.split_once('x')
-            .is_some_and(|(c, r)| matches!(c, "2" | "3" | "4") && size(r))
-    };
+    let columns = |s: &str| s.split_once('x').is_some_and(|(c, r)| matches!(c, "2" | "3" | "4") && size(r));
     name.strip_prefix("vec").is_some_and(size) || name.strip_prefix("mat").is_some_and(columns)
 }
 
@@ -116,11 +103,7 @@ struct Finding {
 }
 
 /// Parses and validates `libraries` followed by `kept`; places point into `source`, whose text `kept` was made from.
-pub(crate) fn check(
-    libraries: &[&Library],
-    kept: &Kept,
-    source: &Arc<SourceText>,
-) -> Vec<Diagnostic> {
+pub(crate) fn check(libraries: &[&Library], kept: &Kept, source: &Arc<SourceText>) -> Vec<Diagnostic> {
     let mut text = String::new();
     for item in libraries.iter().flat_map(|l| &l.items) {
         text.push_str(&item.text);
@@ -128,31 +111,23 @@ pub(crate) fn check(
     }
     let before = text.len();
     text.push_str(&kept.text);
-    let judged = std::thread::Builder::new()
-        .stack_size(STACK)
-        .spawn(move || judge(&text))
-        .map(|t| t.join());
+    let judged = std::thread::Builder::new().stack_size(STACK).spawn(move || judge(&text)).map(|t| t.join());
     let finding = match judged {
         Ok(Ok(None)) => return Vec::new(),
         Ok(Ok(Some(finding))) => finding,
-        Ok(Err(_)) => finding_of("ST127", "the WGSL parser gave up on the text"),
-        Err(error) => finding_of("ST127", &format!("no thread for the WGSL parser: {error}")),
+        Ok(Err(_)) => finding_of("ST0127", "the WGSL parser gave up on the text"),
+        Err(error) => finding_of("ST0127", &format!("no thread for the WGSL parser: {error}")),
     };
     let range = finding.range.filter(|r| r.start >= before);
     let place = match &range {
-        Some(r) => Place::span(Span::new(
-            source,
-            kept.original_range(r.start - before..r.end - before),
-        )),
+        Some(r) => Place::span(Span::new(source, kept.original_range(r.start - before..r.end - before))),
         None => Place::file(&source.name),
     };
     let mut error = Diagnostic::error(finding.code, finding.message, place);
     if let Some(span) = &error.place.span {
         let (line, _) = span.line_column();
         if let Some(text) = lines(&source.text).nth(line - 1) {
-            error
-                .notes
-                .push(format!("line {line}: {}", text.text.trim()));
+            error.notes.push(format!("line {line}: {}", text.text.trim()));
         }
     }
     error.notes.extend(finding.notes);
@@ -160,63 +135,33 @@ pub(crate) fn check(
 }
 
 fn finding_of(code: &'static str, message: &str) -> Finding {
-    Finding {
-        code,
-        message: message.to_owned(),
-        range: None,
-        notes: Vec::new(),
-    }
+    Finding { code, message: message.to_owned(), range: None, notes: Vec::new() }
 }
 
 fn judge(text: &str) -> Option<Finding> {
     let module = match naga::front::wgsl::parse_str(text) {
         Ok(module) => module,
         Err(error) => {
-            let mut labels = error
-                .labels()
-                .filter_map(|(span, label)| Some((span.to_range()?, label.to_owned())));
+            let mut labels = error.labels().filter_map(|(span, label)| Some((span.to_range()?, label.to_owned())));
             let first = labels.next();
-            let mut notes: Vec<String> = first
-                .iter()
-                .map(|(_, l)| l.clone())
-                .filter(|l| !l.is_empty())
-                .collect();
+            let mut notes: Vec<String> = first.iter().map(|(_, l)| l.clone()).filter(|l| !l.is_empty()).collect();
             notes.extend(error.notes().map(str::to_owned));
             let message = error.message().to_owned();
-            return Some(Finding {
-                code: "ST126",
-                message,
-                range: first.map(|(r, _)| r),
-                notes,
-            });
+            return Some(Finding { code: "ST0126", message, range: first.map(|(r, _)| r), notes });
         }
     };
-    let mut validator = naga::valid::Validator::new(
-        naga::valid::ValidationFlags::all(),
-        naga::valid::Capabilities::default(),
-    );
+    let mut validator =
+        naga::valid::Validator::new(naga::valid::ValidationFlags::all(), naga::valid::Capabilities::default());
     let error = validator.validate(&module).err()?;
-    let range = error
-        .spans()
-        .filter_map(|(span, _)| span.to_range())
-        .min_by_key(Range::len);
-    let notes = error
-        .spans()
-        .map(|(_, label)| label.clone())
-        .filter(|l| !l.is_empty())
-        .collect();
+    let range = error.spans().filter_map(|(span, _)| span.to_range()).min_by_key(Range::len);
+    let notes = error.spans().map(|(_, label)| label.clone()).filter(|l| !l.is_empty()).collect();
     let mut message = error.as_inner().to_string();
     let mut cause = error.as_inner().source();
     while let Some(inner) = cause {
         message = format!("{message}: {inner}");
         cause = inner.source();
     }
-    Some(Finding {
-        code: "ST127",
-        message,
-        range,
-        notes,
-    })
+    Some(Finding { code: "ST0127", message, range, notes })
 }
 
 #[cfg(test)]
@@ -226,31 +171,14 @@ mod tests {
     #[test]
     fn builtin_functions_are_sorted_and_known() {
         assert!(FUNCTIONS.is_sorted());
-        assert!(
-            is_builtin("normalize")
-                && is_builtin("vec3f")
-                && is_builtin("mat2x3f")
-                && !is_builtin("lambert")
-        );
+        assert!(is_builtin("normalize") && is_builtin("vec3f") && is_builtin("mat2x3f") && !is_builtin("lambert"));
     }
 
     #[test]
     fn deep_long_and_chained_texts_are_refused() {
         assert!(guard(&"(".repeat(101), 1 << 16).is_some());
-        assert!(
-            guard(
-                &format!("fn f() -> f32 {{ return {} 1; }}", "1 + ".repeat(4000)),
-                1 << 16
-            )
-            .is_some()
-        );
-        assert!(
-            guard(
-                &format!("fn f() {{ if a {{}} {} }}", "else if a {} ".repeat(501)),
-                1 << 16
-            )
-            .is_some()
-        );
+        assert!(guard(&format!("fn f() -> f32 {{ return {} 1; }}", "1 + ".repeat(4000)), 1 << 16).is_some());
+        assert!(guard(&format!("fn f() {{ if a {{}} {} }}", "else if a {} ".repeat(501)), 1 << 16).is_some());
         assert!(guard(&"f(1,1)+".repeat(2000), 1 << 16).is_some());
         assert!(guard("aa", 1).is_some());
     }
@@ -259,26 +187,16 @@ mod tests {
     fn long_flat_texts_pass() {
         let table = format!("const A = array<f32, 9000>({});", "1.0, ".repeat(9000));
         assert!(guard(&table, 1 << 20).is_none());
-        assert!(
-            guard(
-                &"fn f() { if a { b(); } else { c(); } }\n".repeat(600),
-                1 << 20
-            )
-            .is_none()
-        );
+        assert!(guard(&"fn f() { if a { b(); } else { c(); } }\n".repeat(600), 1 << 20).is_none());
     }
 
     #[test]
     fn the_deepest_text_that_is_let_through_is_survived() {
-        let source =
-            |body: String| format!("fn f(x: f32) -> f32 {{ var y = x; {body} return y; }}");
+        let source = |body: String| format!("fn f(x: f32) -> f32 {{ var y = x; {body} return y; }}");
         let texts = [
             source(format!("y = {}x;", "x + ".repeat(1900))),
             source(format!("y = {}x;", "-".repeat(3900).replace('-', "- "))),
-            source(format!(
-                "if x > 1 {{ y = 1; }} {}",
-                "else if x > 2 { y = 2; } ".repeat(499)
-            )),
+            source(format!("if x > 1 {{ y = 1; }} {}", "else if x > 2 { y = 2; } ".repeat(499))),
             source(format!("y = {}x{};", "(".repeat(90), ")".repeat(90))),
         ];
         for text in texts {

@@ -37,11 +37,7 @@ impl Kept {
     pub(crate) fn original_range(&self, range: Range<usize>) -> Range<usize> {
         let start = self.original(range.start);
         // The end belongs to the run of the last byte, not to the one that may begin right behind it.
-        let end = if range.end > range.start {
-            self.original(range.end - 1) + 1
-        } else {
-            start
-        };
+        let end = if range.end > range.start { self.original(range.end - 1) + 1 } else { start };
         start..end.max(start)
     }
 }
@@ -53,15 +49,13 @@ impl Kept {
         let start = self.original(range.start);
         let (old, now) = (range.len(), new.len());
         self.text.replace_range(range.clone(), new);
-        self.runs
-            .retain(|(here, _)| *here < range.start || *here >= range.end);
+        self.runs.retain(|(here, _)| *here < range.start || *here >= range.end);
         for (here, _) in &mut self.runs {
             if *here >= range.end {
                 *here = *here - old + now;
             }
         }
-        self.runs
-            .extend([(range.start, start), (range.start + now, behind)]);
+        self.runs.extend([(range.start, start), (range.start + now, behind)]);
         self.runs.sort_unstable();
         self.runs.dedup_by_key(|(here, _)| *here);
     }
@@ -84,10 +78,7 @@ struct Block {
 /// Applies the conditions of `text`. `choice` gives the choice made for an option and all that it could be; every
 /// name and every alternative is checked against it, also in dropped text.
 pub(crate) fn apply<'a>(text: &str, choice: Lookup<'_, 'a>) -> (Kept, Vec<ConditionError>) {
-    let mut kept = Kept {
-        text: String::with_capacity(text.len()),
-        runs: Vec::new(),
-    };
+    let mut kept = Kept { text: String::with_capacity(text.len()), runs: Vec::new() };
     let mut errors = Vec::new();
     let mut blocks: Vec<Block> = Vec::new();
     let (mut offset, mut broken, mut tidy) = (0, true, false);
@@ -98,13 +89,7 @@ pub(crate) fn apply<'a>(text: &str, choice: Lookup<'_, 'a>) -> (Kept, Vec<Condit
         offset += line.len();
         let trimmed = line.trim();
         if let Some(directive) = trimmed.strip_prefix("//#") {
-            step(
-                directive,
-                indented.min(range.end)..range.end,
-                &mut blocks,
-                choice,
-                &mut errors,
-            );
+            step(directive, indented.min(range.end)..range.end, &mut blocks, choice, &mut errors);
             (broken, tidy) = (true, true);
             continue;
         }
@@ -113,10 +98,7 @@ pub(crate) fn apply<'a>(text: &str, choice: Lookup<'_, 'a>) -> (Kept, Vec<Condit
             continue;
         }
         let blank = trimmed.is_empty();
-        if blank
-            && tidy
-            && (kept.text.is_empty() || kept.text.ends_with("\n\n") || kept.text.ends_with("{\n"))
-        {
+        if blank && tidy && (kept.text.is_empty() || kept.text.ends_with("\n\n") || kept.text.ends_with("{\n")) {
             broken = true;
             continue;
         }
@@ -128,10 +110,7 @@ pub(crate) fn apply<'a>(text: &str, choice: Lookup<'_, 'a>) -> (Kept, Vec<Condit
         kept.text.push_str(line);
     }
     for block in blocks {
-        errors.push(ConditionError {
-            range: block.start,
-            message: "`//#if` has no `//#end`".into(),
-        });
+        errors.push(ConditionError { range: block.start, message: "`//#if` has no `//#end`".into() });
     }
     (kept, errors)
 }
@@ -143,15 +122,8 @@ fn step<'a>(
     choice: Lookup<'_, 'a>,
     errors: &mut Vec<ConditionError>,
 ) {
-    let mut fail = |message: String| {
-        errors.push(ConditionError {
-            range: range.clone(),
-            message,
-        })
-    };
-    let (word, rest) = directive
-        .split_once(char::is_whitespace)
-        .unwrap_or((directive, ""));
+    let mut fail = |message: String| errors.push(ConditionError { range: range.clone(), message });
+    let (word, rest) = directive.split_once(char::is_whitespace).unwrap_or((directive, ""));
     let mut condition = || {
         evaluate(rest, choice).unwrap_or_else(|message| {
             fail(message);
@@ -165,13 +137,7 @@ fn step<'a>(
             if blocks.len() >= MAX_DEPTH {
                 fail(format!("conditions nest deeper than {MAX_DEPTH}"));
             }
-            blocks.push(Block {
-                start: range.clone(),
-                outer,
-                taken: holds,
-                on: outer && holds,
-                had_else: false,
-            });
+            blocks.push(Block { start: range.clone(), outer, taken: holds, on: outer && holds, had_else: false });
         }
         "elif" => {
             let holds = condition();
@@ -197,9 +163,7 @@ fn step<'a>(
                 fail("`//#end` without `//#if`".into());
             }
         }
-        _ => fail(format!(
-            "`//#{word}` is not one of //#if, //#elif, //#else, //#end"
-        )),
+        _ => fail(format!("`//#{word}` is not one of //#if, //#elif, //#else, //#end")),
     }
     if matches!(word, "else" | "end") && !rest.trim().is_empty() {
         fail(format!("`//#{word}` takes no condition"));
@@ -207,21 +171,16 @@ fn step<'a>(
 }
 
 fn evaluate<'a>(condition: &str, choice: Lookup<'_, 'a>) -> Result<bool, String> {
-    let (name, equal, alternatives) = match (condition.split_once("=="), condition.split_once("!="))
-    {
+    let (name, equal, alternatives) = match (condition.split_once("=="), condition.split_once("!=")) {
         (Some((n, a)), None) => (n.trim(), true, a),
         (None, Some((n, a))) => (n.trim(), false, a),
         _ => return Err("a condition reads `NAME == choice | choice` or `NAME != choice`".into()),
     };
-    let (chosen, choices) =
-        choice(name).ok_or_else(|| format!("`{name}` is not an option of this file"))?;
+    let (chosen, choices) = choice(name).ok_or_else(|| format!("`{name}` is not an option of this file"))?;
     let mut found = false;
     for alternative in alternatives.split('|').map(str::trim) {
         if !choices.iter().any(|c| c == alternative) {
-            return Err(format!(
-                "`{alternative}` is not a choice of `{name}`, which is {}",
-                choices.join(" | ")
-            ));
+            return Err(format!("`{alternative}` is not a choice of `{name}`, which is {}", choices.join(" | ")));
         }
         found |= alternative == chosen;
     }
@@ -237,13 +196,7 @@ mod tests {
         let choices = choices.leak();
         let chosen: &'static str = chosen.to_owned().leak();
         let (kept, errors) = apply(text, &|name| (name == "o").then_some((chosen, &*choices)));
-        (
-            kept,
-            errors
-                .into_iter()
-                .map(|e| format!("{}: {}", &text[e.range], e.message))
-                .collect(),
-        )
+        (kept, errors.into_iter().map(|e| format!("{}: {}", &text[e.range], e.message)).collect())
     }
 
     #[test]
@@ -269,10 +222,7 @@ mod tests {
 
     #[test]
     fn blank_lines_around_dropped_text_are_tidied() {
-        assert_eq!(
-            run("x\n\n//#if o == a\ny\n//#end\n\nz\n", "b").0.text,
-            "x\n\nz\n"
-        );
+        assert_eq!(run("x\n\n//#if o == a\ny\n//#end\n\nz\n", "b").0.text, "x\n\nz\n");
     }
 
     #[test]
@@ -289,20 +239,10 @@ mod tests {
 
     #[test]
     fn mistakes_accumulate_with_places() {
-        let errors = run(
-            "//#if q == a\n//#elif o == z\n//#els\n//#end x\n//#end\n//#if o = a\n",
-            "a",
-        )
-        .1;
+        let errors = run("//#if q == a\n//#elif o == z\n//#els\n//#end x\n//#end\n//#if o = a\n", "a").1;
         assert_eq!(errors.len(), 7, "{errors:?}");
-        assert!(
-            errors[0].starts_with("//#if q == a: `q` is not an option"),
-            "{errors:?}"
-        );
-        assert!(
-            errors[1].contains("`z` is not a choice of `o`, which is a | b | c"),
-            "{errors:?}"
-        );
+        assert!(errors[0].starts_with("//#if q == a: `q` is not an option"), "{errors:?}");
+        assert!(errors[1].contains("`z` is not a choice of `o`, which is a | b | c"), "{errors:?}");
         assert!(errors[6].contains("no `//#end`"), "{errors:?}");
     }
 

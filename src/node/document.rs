@@ -31,36 +31,20 @@ pub fn markdown(definition: &Definition) -> String {
                 with_unit(range(port), port),
                 port.doc.clone(),
             ];
-            let _ = writeln!(
-                out,
-                "| {} |",
-                row.map(|cell| cell.replace('|', "\\|")).join(" | ")
-            );
+            let _ = writeln!(out, "| {} |", row.map(|cell| cell.replace('|', "\\|")).join(" | "));
         }
         out.push('\n');
     }
     out.push_str("| output | meaning | type | |\n|---|---|---|---|\n");
     for port in &definition.main.outputs {
         let doc = port.doc.replace('|', "\\|");
-        let _ = writeln!(
-            out,
-            "| `{}` | {} | `{}` | {doc} |",
-            port.name,
-            port.ty.meaning,
-            shape(definition, port)
-        );
+        let _ = writeln!(out, "| `{}` | {} | `{}` | {doc} |", port.name, port.ty.meaning, shape(definition, port));
     }
     if !header.options.is_empty() {
         out.push_str("\n| option | choices | default | |\n|---|---|---|---|\n");
         for option in &header.options {
             let doc = option.doc.replace('|', "\\|");
-            let _ = writeln!(
-                out,
-                "| `{}` | {} | {} | {doc} |",
-                option.name,
-                option.choices.join(", "),
-                option.default
-            );
+            let _ = writeln!(out, "| `{}` | {} | {} | {doc} |", option.name, option.choices.join(", "), option.default);
         }
     }
     out
@@ -69,10 +53,7 @@ pub fn markdown(definition: &Definition) -> String {
 /// As plain text for a terminal.
 pub fn text(definition: &Definition) -> String {
     let header = &definition.header;
-    let mut out = format!(
-        "{} - {} ({})\n",
-        definition.kind, header.label, header.category
-    );
+    let mut out = format!("{} - {} ({})\n", definition.kind, header.label, header.category);
     if !header.description.is_empty() {
         let _ = writeln!(out, "{}", header.description);
     }
@@ -88,13 +69,7 @@ pub fn text(definition: &Definition) -> String {
         let _ = writeln!(out, "\n{title}:");
         let width = ports.iter().map(|p| p.name.len()).max().unwrap_or(0);
         for port in ports {
-            let _ = write!(
-                out,
-                "  {:width$}  {} ({})",
-                port.name,
-                port.ty.meaning,
-                shape(definition, port)
-            );
+            let _ = write!(out, "  {:width$}  {} ({})", port.name, port.ty.meaning, shape(definition, port));
             for (word, detail) in [("=", default(port)), ("in", with_unit(range(port), port))] {
                 if !detail.is_empty() {
                     let _ = write!(out, " {word} {detail}");
@@ -107,11 +82,7 @@ pub fn text(definition: &Definition) -> String {
         out.push_str("\noptions:\n");
         for option in &header.options {
             let choices = option.choices.join(" | ");
-            let _ = writeln!(
-                out,
-                "  {}: {choices} = {}\n    {}",
-                option.name, option.default, option.doc
-            );
+            let _ = writeln!(out, "  {}: {choices} = {}\n    {}", option.name, option.default, option.doc);
         }
     }
     out
@@ -123,13 +94,10 @@ pub fn json(definition: &Definition) -> Json {
     let options: Vec<Json> = header
         .options
         .iter()
-        .map(
-            |o| make!({ "name": o.name, "choices": o.choices, "default": o.default, "doc": o.doc }),
-        )
+        .map(|o| make!({ "name": o.name, "choices": o.choices, "default": o.default, "doc": o.doc }))
         .collect();
-    let ports = |ports: &mut dyn Iterator<Item = &Port>| -> Vec<Json> {
-        ports.map(|p| port_json(definition, p)).collect()
-    };
+    let ports =
+        |ports: &mut dyn Iterator<Item = &Port>| -> Vec<Json> { ports.map(|p| port_json(definition, p)).collect() };
     make!({
         "kind": definition.kind,
         "label": header.label,
@@ -154,12 +122,8 @@ fn port_json(definition: &Definition, port: &Port) -> Json {
         Some(Default::Source(name)) => object.insert("source".into(), name.clone().into()),
         Some(Default::Value(Value::Bool(b))) => object.insert("default".into(), (*b).into()),
         Some(Default::Value(Value::Text(t))) => object.insert("default".into(), t.clone().into()),
-        Some(Default::Value(Value::Numbers(n))) if n.len() == 1 => {
-            object.insert("default".into(), n[0].into())
-        }
-        Some(Default::Value(Value::Numbers(n))) => {
-            object.insert("default".into(), n.clone().into())
-        }
+        Some(Default::Value(Value::Numbers(n))) if n.len() == 1 => object.insert("default".into(), n[0].into()),
+        Some(Default::Value(Value::Numbers(n))) => object.insert("default".into(), n.clone().into()),
         None => None,
     };
     for (key, limit) in [("min", port.range.0), ("max", port.range.1)] {
@@ -177,12 +141,7 @@ fn port_json(definition: &Definition, port: &Port) -> Json {
 /// The WGSL type; all widths for a generic port.
 fn shape(definition: &Definition, port: &Port) -> String {
     if port.ty.shape == crate::semantic::Shape::Generic {
-        let widths: Vec<String> = definition
-            .header
-            .generic
-            .iter()
-            .map(crate::semantic::Shape::wgsl)
-            .collect();
+        let widths: Vec<String> = definition.header.generic.iter().map(crate::semantic::Shape::wgsl).collect();
         return widths.join(" or ");
     }
     port.ty.shape.wgsl()
@@ -236,18 +195,9 @@ fn spin(a: f32, n: vec3f, k: f32) -> f32 { return a * n.x * k; }
         let file = NodeFile::new("math/spin.wgsl".into(), SPIN.into(), false);
         let d = file.definition(&Choices::new()).unwrap();
         let markdown = markdown(&d);
-        assert!(
-            markdown.contains("| `a` | angle | `f32` | 30 | 0..90 deg | How far. |"),
-            "{markdown}"
-        );
-        assert!(
-            markdown.contains("| `way` | left, right | left | Which way. |"),
-            "{markdown}"
-        );
-        assert!(
-            markdown.contains("Turned \\| done.") && !markdown.contains("Internal"),
-            "{markdown}"
-        );
+        assert!(markdown.contains("| `a` | angle | `f32` | 30 | 0..90 deg | How far. |"), "{markdown}");
+        assert!(markdown.contains("| `way` | left, right | left | Which way. |"), "{markdown}");
+        assert!(markdown.contains("Turned \\| done.") && !markdown.contains("Internal"), "{markdown}");
         let text = text(&d);
         assert!(text.contains("  n  normal world (vec3f) = @normal_world"));
         let json = json(&d);

@@ -66,8 +66,7 @@ impl NodeFile {
 
     /// The raw text for diagnostics to point into.
     pub fn source(&self) -> &Arc<SourceText> {
-        self.source
-            .get_or_init(|| SourceText::new(&*self.path, &*self.text))
+        self.source.get_or_init(|| SourceText::new(&*self.path, &*self.text))
     }
 
     /// The header.
@@ -80,16 +79,9 @@ impl NodeFile {
                 let (header, mut found) = header::parse(self.source(), true);
                 if !is_identifier(&self.kind) || is_reserved(&self.kind) {
                     let message = format!("`{}` cannot be the name of a WGSL function", self.kind);
-                    found.push(
-                        Diagnostic::error("ST109", message, Place::file(&*self.path))
-                            .help("rename the file"),
-                    );
+                    found.push(Diagnostic::error("ST0109", message, Place::file(&*self.path)).help("rename the file"));
                 }
-                if found.is_empty() {
-                    Ok(Arc::new(header))
-                } else {
-                    Err(found)
-                }
+                if found.is_empty() { Ok(Arc::new(header)) } else { Err(found) }
             })
             .clone()
     }
@@ -103,21 +95,13 @@ impl NodeFile {
         let header = self.header()?;
         let made = resolve(&header.options, choices, Place::file(&*self.path))?;
         let key: Vec<String> = made.iter().map(|(_, choice)| choice.clone()).collect();
-        let cached = |key: &Vec<String>| {
-            self.definitions
-                .lock()
-                .unwrap_or_else(PoisonError::into_inner)
-                .get(key)
-                .cloned()
-        };
+        let cached =
+            |key: &Vec<String>| self.definitions.lock().unwrap_or_else(PoisonError::into_inner).get(key).cloned();
         if let Some(known) = cached(&key) {
             return known;
         }
         let outcome = define(&self.kind, &header, made, true).map(Arc::new);
-        let mut definitions = self
-            .definitions
-            .lock()
-            .unwrap_or_else(PoisonError::into_inner);
+        let mut definitions = self.definitions.lock().unwrap_or_else(PoisonError::into_inner);
         if definitions.len() < MAX_CACHED {
             definitions.insert(key, outcome.clone());
         }
@@ -140,11 +124,7 @@ pub(crate) fn resolve(
     let mut found = Vec::new();
     for (name, choice) in choices {
         let Some(option) = options.iter().find(|o| o.name == *name) else {
-            let mut error = Diagnostic::error(
-                "ST133",
-                format!("there is no option `{name}`"),
-                place.clone(),
-            );
+            let mut error = Diagnostic::error("ST0133", format!("there is no option `{name}`"), place.clone());
             error.help = match did_you_mean(name, options.iter().map(|o| o.name.as_str())) {
                 Some(near) => Some(format!("did you mean `{near}`?")),
                 None if options.is_empty() => Some("it has no options".into()),
@@ -158,28 +138,19 @@ pub(crate) fn resolve(
         };
         if !option.choices.contains(choice) {
             let message = format!("`{choice}` is not a choice of option `{name}`");
-            let error = Diagnostic::error("ST133", message, place.clone());
+            let error = Diagnostic::error("ST0133", message, place.clone());
             found.push(error.help(format!("choices are {}", option.choices.join(", "))));
         }
     }
     if !found.is_empty() {
         return Err(found);
     }
-    let made = |o: &OptionSpec| {
-        (
-            o.name.clone(),
-            choices.get(&o.name).unwrap_or(&o.default).clone(),
-        )
-    };
+    let made = |o: &OptionSpec| (o.name.clone(), choices.get(&o.name).unwrap_or(&o.default).clone());
     Ok(options.iter().map(made).collect())
 }
 
 /// Applies choices to the text of `report`: conditions, then constants that numeric options set.
-pub(crate) fn apply(
-    report: &mut Report,
-    options: &[OptionSpec],
-    choices: &[(String, String)],
-) -> Applied {
+pub(crate) fn apply(report: &mut Report, options: &[OptionSpec], choices: &[(String, String)]) -> Applied {
     let source = report.source.clone();
     let (mut kept, errors) = conditional::apply(&source.text, &|name| {
         let option = options.iter().find(|o| o.name == name)?;
@@ -187,22 +158,18 @@ pub(crate) fn apply(
         Some((&choice.1, &option.choices))
     });
     for error in errors {
-        report.error("ST110", error.range, error.message);
+        report.error("ST0110", error.range, error.message);
     }
     let (mut declarations, mistakes) = items::split(&kept.text);
     for (range, message) in mistakes {
         report
-            .error("ST124", kept.original_range(range), message)
+            .error("ST0124", kept.original_range(range), message)
             .help("a file holds fn, struct, const, alias, override and var declarations");
     }
     let mut edits = Vec::new();
     for (name, choice) in choices {
-        let numeric = options
-            .iter()
-            .any(|o| o.name == *name && o.choices.iter().all(|c| c.parse::<f64>().is_ok()));
-        let constant = declarations
-            .iter()
-            .find(|d| d.keyword == "const" && d.name == name.to_uppercase());
+        let numeric = options.iter().any(|o| o.name == *name && o.choices.iter().all(|c| c.parse::<f64>().is_ok()));
+        let constant = declarations.iter().find(|d| d.keyword == "const" && d.name == name.to_uppercase());
         if let Some(constant) = constant.filter(|_| numeric) {
             edits.extend(initializer(&kept.text, constant).map(|range| (range, choice)));
         }
@@ -221,10 +188,7 @@ pub(crate) fn apply(
 fn initializer(text: &str, constant: &Declaration) -> Option<std::ops::Range<usize>> {
     let tokens = tokenize(&text[constant.range.clone()]);
     let equals = tokens.iter().position(|t| t.is(b'='))?;
-    let (first, last) = (
-        tokens.get(equals + 1)?,
-        tokens.get(tokens.len().checked_sub(2)?)?,
-    );
+    let (first, last) = (tokens.get(equals + 1)?, tokens.get(tokens.len().checked_sub(2)?)?);
     let start = constant.range.start;
     (first.range.start < last.range.end).then(|| start + first.range.start..start + last.range.end)
 }
@@ -233,12 +197,7 @@ fn initializer(text: &str, constant: &Declaration) -> Option<std::ops::Range<usi
 pub(crate) fn items_of(applied: &Applied) -> Vec<Item> {
     let item = |d: &Declaration| {
         let text = applied.kept.text[d.range.clone()].to_owned();
-        Item {
-            name: d.name.clone(),
-            mentions: mentions(&text),
-            text,
-            offset: applied.kept.original(d.range.start),
-        }
+        Item { name: d.name.clone(), mentions: mentions(&text), text, offset: applied.kept.original(d.range.start) }
     };
     applied.declarations.iter().map(item).collect()
 }
@@ -254,26 +213,16 @@ pub(crate) fn define(
     let applied = apply(&mut report, &header.options, &choices);
     let Applied { kept, declarations } = &applied;
     judge(&mut report, &applied);
-    let reader = Reader {
-        kept,
-        declarations,
-        header,
-        strict,
-    };
-    let function = |name: &str| {
-        declarations
-            .iter()
-            .find(|d| d.keyword == "fn" && d.name == name)
-    };
+    let reader = Reader { kept, declarations, header, strict };
+    let function = |name: &str| declarations.iter().find(|d| d.keyword == "fn" && d.name == name);
     let main = function(kind);
     if main.is_none() {
         report
-            .error("ST121", 0..0, format!("the file has no function `{kind}`"))
+            .error("ST0121", 0..0, format!("the file has no function `{kind}`"))
             .help("the function that the node stands for is named like the file");
     }
     let ambient = function(&format!("{kind}_ambient"));
-    let read =
-        |report: &mut Report, d: Option<&Declaration>| d.and_then(|d| reader.function(report, d));
+    let read = |report: &mut Report, d: Option<&Declaration>| d.and_then(|d| reader.function(report, d));
     let (main_read, ambient_read) = (read(&mut report, main), read(&mut report, ambient));
     for (declaration, read) in [(main, &main_read), (ambient, &ambient_read)] {
         if let (Some(declaration), Some(function)) = (declaration, read)
@@ -281,11 +230,7 @@ pub(crate) fn define(
             && function.body.is_none()
         {
             let place = kept.original_range(declaration.name_range.clone());
-            report.error(
-                "ST123",
-                place,
-                format!("`{kind}` is inline but its body is not one `return`"),
-            );
+            report.error("ST0123", place, format!("`{kind}` is inline but its body is not one `return`"));
         }
     }
     generic(&mut report, header, &applied);
@@ -314,32 +259,16 @@ fn judge(report: &mut Report, applied: &Applied) {
     for (i, d) in declarations.iter().enumerate() {
         let place = kept.original_range(d.name_range.clone());
         if declarations[..i].iter().any(|e| e.name == d.name) {
-            report.error(
-                "ST104",
-                place.clone(),
-                format!("`{}` is declared twice", d.name),
-            );
+            report.error("ST0104", place.clone(), format!("`{}` is declared twice", d.name));
         }
         if is_reserved(&d.name) || !is_identifier(&d.name) {
-            report.error(
-                "ST120",
-                place.clone(),
-                format!("`{}` cannot be declared in WGSL", d.name),
-            );
+            report.error("ST0120", place.clone(), format!("`{}` cannot be declared in WGSL", d.name));
         }
         if d.entry {
-            report.error(
-                "ST125",
-                place,
-                format!("`{}` is an entry point; a node is a function", d.name),
-            );
+            report.error("ST0125", place, format!("`{}` is an entry point; a node is a function", d.name));
         } else if d.keyword == "var" || d.keyword == "override" {
             report
-                .error(
-                    "ST125",
-                    place,
-                    format!("`{}` is a module-scope {}", d.name, d.keyword),
-                )
+                .error("ST0125", place, format!("`{}` is a module-scope {}", d.name, d.keyword))
                 .help("what a node needs comes in through its parameters");
         }
     }
@@ -350,32 +279,17 @@ fn generic(report: &mut Report, header: &Header, applied: &Applied) {
         return;
     };
     let Applied { kept, declarations } = applied;
-    match declarations
-        .iter()
-        .find(|d| d.keyword == "alias" && d.name == "T")
-    {
+    match declarations.iter().find(|d| d.keyword == "alias" && d.name == "T") {
         None => {
             report
-                .error("ST122", 0..0, "a generic file has no `alias T`")
-                .help(format!(
-                    "add `alias T = {};` under the header",
-                    first.wgsl()
-                ));
+                .error("ST0122", 0..0, "a generic file has no `alias T`")
+                .help(format!("add `alias T = {};` under the header", first.wgsl()));
         }
         Some(alias) => {
-            let ty = initializer(&kept.text, alias)
-                .map(|r| kept.text[r].to_owned())
-                .unwrap_or_default();
+            let ty = initializer(&kept.text, alias).map(|r| kept.text[r].to_owned()).unwrap_or_default();
             if crate::semantic::Shape::from_wgsl(&ty) != *first {
                 let place = kept.original_range(alias.name_range.clone());
-                report.error(
-                    "ST122",
-                    place,
-                    format!(
-                        "`T` is `{ty}`, the header's first width is `{}`",
-                        first.wgsl()
-                    ),
-                );
+                report.error("ST0122", place, format!("`T` is `{ty}`, the header's first width is `{}`", first.wgsl()));
             }
         }
     }

@@ -22,16 +22,12 @@ pub(crate) struct Reader<'a> {
 
 impl Reader<'_> {
     /// Reads the function `declaration` with its port lines.
-    pub(crate) fn function(
-        &self,
-        report: &mut Report,
-        declaration: &Declaration,
-    ) -> Option<Function> {
+    pub(crate) fn function(&self, report: &mut Report, declaration: &Declaration) -> Option<Function> {
         let text = &self.kept.text;
         let at = |range| self.kept.original_range(range);
         let Some(signature) = signature(text, declaration) else {
             let message = format!("the signature of `{}` cannot be read", declaration.name);
-            report.error("ST124", at(declaration.name_range.clone()), message);
+            report.error("ST0124", at(declaration.name_range.clone()), message);
             return None;
         };
         let written = self.lines(report, declaration);
@@ -40,11 +36,7 @@ impl Reader<'_> {
         for line in written.iter().filter(|l| !l.output) {
             if lines.insert(&line.name, line).is_some() {
                 report
-                    .error(
-                        "ST117",
-                        line.name_range.clone(),
-                        format!("`{}` has two lines", line.name),
-                    )
+                    .error("ST0117", line.name_range.clone(), format!("`{}` has two lines", line.name))
                     .port(&line.name);
             }
         }
@@ -53,33 +45,15 @@ impl Reader<'_> {
             inputs.extend(self.port(report, field, line));
         }
         for (name, line) in lines {
-            let near = crate::diagnostic::did_you_mean(
-                name,
-                signature.parameters.iter().map(|p| p.name.as_str()),
-            );
+            let near = crate::diagnostic::did_you_mean(name, signature.parameters.iter().map(|p| p.name.as_str()));
             report
-                .error(
-                    "ST119",
-                    line.name_range.clone(),
-                    format!("`{}` takes no `{name}`", declaration.name),
-                )
+                .error("ST0119", line.name_range.clone(), format!("`{}` takes no `{name}`", declaration.name))
                 .suggest(near)
                 .port(name);
         }
-        let (outputs, result_struct) =
-            self.outputs(report, declaration, signature.result.as_deref(), &written);
-        let body = if self.header.inline {
-            returned(text, signature.body)
-        } else {
-            None
-        };
-        Some(Function {
-            name: declaration.name.clone(),
-            inputs,
-            outputs,
-            result_struct,
-            body,
-        })
+        let (outputs, result_struct) = self.outputs(report, declaration, signature.result.as_deref(), &written);
+        let body = if self.header.inline { returned(text, signature.body) } else { None };
+        Some(Function { name: declaration.name.clone(), inputs, outputs, result_struct, body })
     }
 
     /// The port lines right above a function; a line that begins with more than one space continues the one before.
@@ -89,9 +63,7 @@ impl Reader<'_> {
         for line in above.iter().rev() {
             let trimmed = line.trim();
             match trimmed.text.strip_prefix("///") {
-                Some(rest) => {
-                    found.push(trimmed.slice(trimmed.text.len() - rest.len()..trimmed.text.len()))
-                }
+                Some(rest) => found.push(trimmed.slice(trimmed.text.len() - rest.len()..trimmed.text.len())),
                 None if trimmed.text.is_empty() || trimmed.text.starts_with("//") => {}
                 None => break,
             }
@@ -109,9 +81,7 @@ impl Reader<'_> {
                     port.doc.push(' ');
                     port.doc.push_str(piece.text.trim());
                 }
-                _ if self.strict || ports::looks_like_port(piece.text) => {
-                    ports.extend(ports::parse(report, piece))
-                }
+                _ if self.strict || ports::looks_like_port(piece.text) => ports.extend(ports::parse(report, piece)),
                 _ => {}
             }
         }
@@ -129,65 +99,40 @@ impl Reader<'_> {
         let place = self.kept.original_range(declaration.name_range.clone());
         let lines: Vec<&PortLine> = written.iter().filter(|l| l.output).collect();
         let Some(result) = result else {
-            report.error(
-                "ST135",
-                place,
-                format!("`{}` returns nothing", declaration.name),
-            );
+            report.error("ST0135", place, format!("`{}` returns nothing", declaration.name));
             return (Vec::new(), None);
         };
         for (i, line) in lines.iter().enumerate() {
             if lines[..i].iter().any(|l| l.name == line.name) {
                 report
-                    .error(
-                        "ST117",
-                        line.name_range.clone(),
-                        format!("`{}` has two lines", line.name),
-                    )
+                    .error("ST0117", line.name_range.clone(), format!("`{}` has two lines", line.name))
                     .port(&line.name);
             }
         }
-        let structure = self
-            .declarations
-            .iter()
-            .find(|d| d.keyword == "struct" && d.name == result);
+        let structure = self.declarations.iter().find(|d| d.keyword == "struct" && d.name == result);
         if let Some(structure) = structure {
             let fields = members(text, structure);
             for line in &lines {
                 if fields.iter().all(|f| f.name != line.name) {
                     report
-                        .error(
-                            "ST119",
-                            line.name_range.clone(),
-                            format!("`{result}` has no `{}`", line.name),
-                        )
+                        .error("ST0119", line.name_range.clone(), format!("`{result}` has no `{}`", line.name))
                         .port(&line.name);
                 }
             }
             let outputs = fields
                 .iter()
-                .filter_map(|f| {
-                    self.port(report, f, lines.iter().copied().find(|l| l.name == f.name))
-                })
+                .filter_map(|f| self.port(report, f, lines.iter().copied().find(|l| l.name == f.name)))
                 .collect();
             return (outputs, Some(result.to_owned()));
         }
         if self.strict && lines.is_empty() {
             report
-                .error(
-                    "ST118",
-                    place.clone(),
-                    format!("what `{}` returns has no `/// ->` line", declaration.name),
-                )
+                .error("ST0118", place.clone(), format!("what `{}` returns has no `/// ->` line", declaration.name))
                 .help("add a line `/// -> name (meaning): What it is.`");
         }
         for extra in lines.iter().skip(1) {
             report
-                .error(
-                    "ST119",
-                    extra.name_range.clone(),
-                    format!("`{}` returns one value", declaration.name),
-                )
+                .error("ST0119", extra.name_range.clone(), format!("`{}` returns one value", declaration.name))
                 .port(&extra.name);
         }
         let line = lines.first().copied();
@@ -197,34 +142,21 @@ impl Reader<'_> {
             ty: result.to_owned(),
         };
         // A single result has no name in WGSL, so any word will do.
-        (
-            self.port_of(report, &field, line).into_iter().collect(),
-            None,
-        )
+        (self.port_of(report, &field, line).into_iter().collect(), None)
     }
 
     fn port(&self, report: &mut Report, field: &Field, line: Option<&PortLine>) -> Option<Port> {
         if is_reserved(&field.name) {
-            let place = line.map_or_else(
-                || self.kept.original_range(field.range.clone()),
-                |l| l.name_range.clone(),
-            );
+            let place = line.map_or_else(|| self.kept.original_range(field.range.clone()), |l| l.name_range.clone());
             report
-                .error(
-                    "ST120",
-                    place,
-                    format!("`{}` is a word that WGSL keeps for itself", field.name),
-                )
+                .error("ST0120", place, format!("`{}` is a word that WGSL keeps for itself", field.name))
                 .port(&field.name);
         }
         if line.is_none() && self.strict {
             let place = self.kept.original_range(field.range.clone());
             report
-                .error("ST118", place, format!("`{}` has no port line", field.name))
-                .help(format!(
-                    "add a line `/// {} (meaning; = default): What it does.`",
-                    field.name
-                ))
+                .error("ST0118", place, format!("`{}` has no port line", field.name))
+                .help(format!("add a line `/// {} (meaning; = default): What it does.`", field.name))
                 .port(&field.name);
             return None;
         }
@@ -249,14 +181,8 @@ impl Reader<'_> {
             });
         };
         if !carries(&shape, line.meaning.kind) {
-            let message = format!(
-                "a `{}` cannot carry a {}",
-                field.ty,
-                line.meaning.kind.word()
-            );
-            report
-                .error("ST136", line.meaning_range.clone(), message)
-                .port(&line.name);
+            let message = format!("a `{}` cannot carry a {}", field.ty, line.meaning.kind.word());
+            report.error("ST0136", line.meaning_range.clone(), message).port(&line.name);
         }
         self.default(report, line, &shape);
         Some(Port {
@@ -275,32 +201,21 @@ impl Reader<'_> {
             Some((Default::Value(value), place)) => {
                 if !value.fits(shape) {
                     let message = format!("`{value}` does not fit a `{}`", shape.wgsl());
-                    report
-                        .error("ST114", place.clone(), message)
-                        .port(&line.name);
+                    report.error("ST0114", place.clone(), message).port(&line.name);
                 }
                 if let Value::Numbers(numbers) = value
-                    && numbers.iter().any(|n| {
-                        line.range.0.is_some_and(|low| *n < low)
-                            || line.range.1.is_some_and(|high| *n > high)
-                    })
+                    && numbers
+                        .iter()
+                        .any(|n| line.range.0.is_some_and(|low| *n < low) || line.range.1.is_some_and(|high| *n > high))
                 {
                     let message = format!("the default `{value}` lies outside the range");
-                    report
-                        .error("ST116", place.clone(), message)
-                        .port(&line.name);
+                    report.error("ST0116", place.clone(), message).port(&line.name);
                 }
             }
             Some((Default::Source(name), place)) => {
                 if let Some(source) = source(name).filter(|s| s.ty.shape != *shape) {
-                    let message = format!(
-                        "`@{name}` is a `{}`, the port a `{}`",
-                        source.ty.shape.wgsl(),
-                        shape.wgsl()
-                    );
-                    report
-                        .error("ST115", place.clone(), message)
-                        .port(&line.name);
+                    let message = format!("`@{name}` is a `{}`, the port a `{}`", source.ty.shape.wgsl(), shape.wgsl());
+                    report.error("ST0115", place.clone(), message).port(&line.name);
                 }
             }
             None => {
@@ -310,7 +225,7 @@ impl Reader<'_> {
                 if line.hidden && !supplied {
                     report
                         .error(
-                            "ST137",
+                            "ST0137",
                             line.name_range.clone(),
                             format!("`{}` is hidden and has no default", line.name),
                         )
@@ -339,32 +254,19 @@ fn carries(shape: &Shape, kind: Kind) -> bool {
         Kind::Bool => *shape == Shape::Bool,
         Kind::Matrix => matches!(shape, Shape::Matrix(_)),
         Kind::Sampler => matches!(shape, Shape::Sampler | Shape::ComparisonSampler),
-        Kind::Texture => matches!(
-            shape,
-            Shape::Texture | Shape::DepthTexture | Shape::Named(_)
-        ),
+        Kind::Texture => matches!(shape, Shape::Texture | Shape::DepthTexture | Shape::Named(_)),
         Kind::Map => matches!(
             shape,
-            Shape::Texture
-                | Shape::DepthTexture
-                | Shape::Sampler
-                | Shape::ComparisonSampler
-                | Shape::Named(_)
+            Shape::Texture | Shape::DepthTexture | Shape::Sampler | Shape::ComparisonSampler | Shape::Named(_)
         ),
         Kind::Space | Kind::Environment => true,
-        Kind::Index => matches!(
-            shape,
-            Shape::I32 | Shape::U32 | Shape::F32(1) | Shape::Named(_)
-        ),
+        Kind::Index => matches!(shape, Shape::I32 | Shape::U32 | Shape::F32(1) | Shape::Named(_)),
         Kind::Point | Kind::Vector | Kind::Direction | Kind::Normal | Kind::Texcoord => {
             matches!(shape, Shape::F32(2..) | Shape::Generic | Shape::Named(_))
         }
         Kind::Color => matches!(shape, Shape::F32(_) | Shape::Generic | Shape::Named(_)),
         Kind::Number | Kind::Scalar | Kind::Angle | Kind::Cosine | Kind::Distance | Kind::Depth => {
-            matches!(
-                shape,
-                Shape::F32(_) | Shape::I32 | Shape::U32 | Shape::Generic | Shape::Named(_)
-            )
+            matches!(shape, Shape::F32(_) | Shape::I32 | Shape::U32 | Shape::Generic | Shape::Named(_))
         }
     }
 }

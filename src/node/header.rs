@@ -10,17 +10,8 @@ use crate::diagnostic::{Diagnostic, SourceText, did_you_mean};
 use crate::semantic::Shape;
 
 /// The families of nodes.
-pub const CATEGORIES: &[&str] = &[
-    "light",
-    "shadow",
-    "surface",
-    "geometry",
-    "texture",
-    "procedural",
-    "math",
-    "color",
-    "logic",
-];
+pub const CATEGORIES: &[&str] =
+    &["light", "shadow", "surface", "geometry", "texture", "procedural", "math", "color", "logic"];
 
 /// Keys of one word, then keys that name a port, option or type parameter.
 const KEYS: &[&str] = &["label", "category", "synonyms", "use", "space"];
@@ -55,15 +46,12 @@ pub(crate) fn parse(source: &Arc<SourceText>, strict: bool) -> (Header, Vec<Diag
         match line.trim().text.strip_prefix("//!") {
             Some(rest) if in_header => {
                 let line = line.trim();
-                reader.line(
-                    line.slice(line.text.len() - rest.len()..line.text.len())
-                        .trim(),
-                );
+                reader.line(line.slice(line.text.len() - rest.len()..line.text.len()).trim());
             }
             Some(_) => {
                 reader
                     .report
-                    .error("ST108", line.range(), "a header line behind the header")
+                    .error("ST0108", line.range(), "a header line behind the header")
                     .help("`//!` lines stand together at the top of the file");
             }
             None => in_header &= line.text.trim().is_empty(),
@@ -109,30 +97,15 @@ impl<'a> Reader<'a> {
             }
             [word, name] if NAMED_KEYS.contains(&word.text) => {
                 if !is_identifier(name.text) {
-                    self.report.error(
-                        "ST102",
-                        name.range(),
-                        format!("`{}` is not a name", name.text),
-                    );
+                    self.report.error("ST0102", name.range(), format!("`{}` is not a name", name.text));
                 } else if self.once(key, key.text.to_owned()) {
                     self.named(word.text, name, value);
                 }
             }
-            [word]
-                if looks_like_key(word.text)
-                    && (value.text.is_empty() || value.at > word.range().end + 1) =>
-            {
-                let known = KEYS
-                    .iter()
-                    .chain(NAMED_KEYS)
-                    .copied()
-                    .chain(["inline", "commutative"]);
+            [word] if looks_like_key(word.text) && (value.text.is_empty() || value.at > word.range().end + 1) => {
+                let known = KEYS.iter().chain(NAMED_KEYS).copied().chain(["inline", "commutative"]);
                 self.report
-                    .error(
-                        "ST101",
-                        word.range(),
-                        format!("`{}` is not a key of node headers", word.text),
-                    )
+                    .error("ST0101", word.range(), format!("`{}` is not a key of node headers", word.text))
                     .suggest(did_you_mean(word.text, known));
             }
             _ => self.describe(line),
@@ -157,16 +130,14 @@ impl<'a> Reader<'a> {
         if new {
             self.seen.push(key);
         } else {
-            self.report
-                .error("ST104", at.range(), format!("`{key}` is said twice"));
+            self.report.error("ST0104", at.range(), format!("`{key}` is said twice"));
         }
         new
     }
 
     fn plain(&mut self, key: &str, value: Piece<'a>) {
         if value.text.is_empty() {
-            self.report
-                .error("ST102", value.range(), format!("`{key}:` says nothing"));
+            self.report.error("ST0102", value.range(), format!("`{key}:` says nothing"));
             return;
         }
         match key {
@@ -175,11 +146,7 @@ impl<'a> Reader<'a> {
                 self.header.category = value.text.to_owned();
                 if !CATEGORIES.contains(&value.text) {
                     self.report
-                        .error(
-                            "ST103",
-                            value.range(),
-                            format!("`{}` is not a category", value.text),
-                        )
+                        .error("ST0103", value.range(), format!("`{}` is not a category", value.text))
                         .help(format!("categories are {}", CATEGORIES.join(", ")));
                 }
             }
@@ -198,7 +165,7 @@ impl<'a> Reader<'a> {
             "orthographic" => &["direction", "center", "radius"],
             other => {
                 self.report
-                    .error("ST102", projection.range(), format!("`{other}` is not a projection"))
+                    .error("ST0102", projection.range(), format!("`{other}` is not a projection"))
                     .help("projections are perspective(position, direction, outer_angle, near, range) and orthographic(direction, center, radius)");
                 return;
             }
@@ -206,24 +173,16 @@ impl<'a> Reader<'a> {
         let inputs = arguments.map_or(Vec::new(), |a| a.split(','));
         if inputs.len() != parameters.len() {
             self.report.error(
-                "ST102",
+                "ST0102",
                 value.range(),
-                format!(
-                    "{}({}) takes {} inputs",
-                    projection.text,
-                    parameters.join(", "),
-                    parameters.len()
-                ),
+                format!("{}({}) takes {} inputs", projection.text, parameters.join(", "), parameters.len()),
             );
         }
         for input in &inputs {
             self.port(*input);
         }
         let inputs = inputs.iter().map(|i| i.text.to_owned()).collect();
-        self.header.space = Some(SpaceSpec {
-            projection: projection.text.to_owned(),
-            inputs,
-        });
+        self.header.space = Some(SpaceSpec { projection: projection.text.to_owned(), inputs });
     }
 
     fn named(&mut self, key: &str, name: Piece<'a>, value: Piece<'a>) {
@@ -254,28 +213,17 @@ impl<'a> Reader<'a> {
 
     fn generic(&mut self, name: Piece<'a>, value: Piece<'a>) {
         if name.text != "T" {
-            self.report
-                .error("ST102", name.range(), "the type parameter is called `T`");
+            self.report.error("ST0102", name.range(), "the type parameter is called `T`");
         }
         for choice in value.split('|') {
             match Shape::from_wgsl(choice.text) {
-                shape @ Shape::F32(_) if !self.header.generic.contains(&shape) => {
-                    self.header.generic.push(shape)
-                }
+                shape @ Shape::F32(_) if !self.header.generic.contains(&shape) => self.header.generic.push(shape),
                 Shape::F32(_) => {
-                    self.report.error(
-                        "ST104",
-                        choice.range(),
-                        format!("`{}` is said twice", choice.text),
-                    );
+                    self.report.error("ST0104", choice.range(), format!("`{}` is said twice", choice.text));
                 }
                 _ => {
                     self.report
-                        .error(
-                            "ST102",
-                            choice.range(),
-                            format!("`{}` is not a width", choice.text),
-                        )
+                        .error("ST0102", choice.range(), format!("`{}` is not a width", choice.text))
                         .help("T may be f32, vec2f, vec3f, vec4f");
                 }
             }
@@ -286,11 +234,7 @@ impl<'a> Reader<'a> {
         if !self.port_names.contains(&name.text) {
             let near = did_you_mean(name.text, self.port_names.iter().copied());
             self.report
-                .error(
-                    "ST106",
-                    name.range(),
-                    format!("no input is called `{}`", name.text),
-                )
+                .error("ST0106", name.range(), format!("no input is called `{}`", name.text))
                 .suggest(near)
                 .port(name.text);
         }
@@ -298,13 +242,10 @@ impl<'a> Reader<'a> {
 
     fn finish(mut self, strict: bool) -> (Header, Vec<Diagnostic>) {
         if strict {
-            for (key, value) in [
-                ("label", &self.header.label),
-                ("category", &self.header.category),
-            ] {
+            for (key, value) in [("label", &self.header.label), ("category", &self.header.category)] {
                 if value.is_empty() && !self.seen.iter().any(|s| s == key) {
                     self.report
-                        .error("ST100", 0..0, format!("the header says no {key}"))
+                        .error("ST0100", 0..0, format!("the header says no {key}"))
                         .help(format!("add a line `//! {key}: ...` at the top"));
                 }
             }
@@ -312,20 +253,8 @@ impl<'a> Reader<'a> {
         for mention in std::mem::take(&mut self.mentioned) {
             let name = mention.text.trim_start_matches('$');
             if !self.header.options.iter().any(|o| o.name == name) {
-                let near = did_you_mean(
-                    name,
-                    self.header
-                        .options
-                        .iter()
-                        .map(|o: &OptionSpec| o.name.as_str()),
-                );
-                self.report
-                    .error(
-                        "ST107",
-                        mention.range(),
-                        format!("no option is called `{name}`"),
-                    )
-                    .suggest(near);
+                let near = did_you_mean(name, self.header.options.iter().map(|o: &OptionSpec| o.name.as_str()));
+                self.report.error("ST0107", mention.range(), format!("no option is called `{name}`")).suggest(near);
             }
         }
         (self.header, self.report.found)

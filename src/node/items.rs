@@ -48,19 +48,12 @@ pub(crate) fn split(text: &str) -> (Vec<Declaration>, Vec<Mistake>) {
     (found, mistakes)
 }
 
-fn declaration(
-    text: &str,
-    tokens: &[Token],
-    first: usize,
-) -> Result<(Declaration, usize), (Mistake, usize)> {
+fn declaration(text: &str, tokens: &[Token], first: usize) -> Result<(Declaration, usize), (Mistake, usize)> {
     let start = tokens[first].range.start;
     let (mut at, mut entry) = (first, false);
     while tokens.get(at).is_some_and(|t| t.is(b'@')) {
-        entry |= tokens.get(at + 1).is_some_and(|t| {
-            ["vertex", "fragment", "compute"]
-                .iter()
-                .any(|w| t.is_word(text, w))
-        });
+        entry |=
+            tokens.get(at + 1).is_some_and(|t| ["vertex", "fragment", "compute"].iter().any(|w| t.is_word(text, w)));
         at += 2;
         if tokens.get(at).is_some_and(|t| t.is(b'(')) {
             at = close(tokens, at).ok_or_else(|| unclosed(tokens, at))? + 1;
@@ -68,10 +61,7 @@ fn declaration(
     }
     let Some(head) = tokens.get(at) else {
         let last = tokens[tokens.len() - 1].range.clone();
-        return Err((
-            (last, "an attribute without a declaration".into()),
-            tokens.len(),
-        ));
+        return Err(((last, "an attribute without a declaration".into()), tokens.len()));
     };
     let Some(keyword) = KEYWORDS.iter().copied().find(|k| head.is_word(text, k)) else {
         let message = format!("`{}` does not begin a declaration", head.text(text));
@@ -85,20 +75,14 @@ fn declaration(
         at += 1;
     }
     let Some(name) = tokens.get(at).filter(|t| t.kind == TokenKind::Word) else {
-        return Err((
-            (head.range.clone(), format!("`{keyword}` without a name")),
-            skip(tokens, at),
-        ));
+        return Err(((head.range.clone(), format!("`{keyword}` without a name")), skip(tokens, at)));
     };
     let braced = matches!(keyword, "fn" | "struct");
     let mut end = at + 1;
     loop {
         let Some(token) = tokens.get(end) else {
             return Err((
-                (
-                    name.range.clone(),
-                    format!("the declaration of `{}` does not end", name.text(text)),
-                ),
+                (name.range.clone(), format!("the declaration of `{}` does not end", name.text(text))),
                 tokens.len(),
             ));
         };
@@ -129,10 +113,7 @@ fn declaration(
 }
 
 fn unclosed(tokens: &[Token], at: usize) -> (Mistake, usize) {
-    (
-        (tokens[at].range.clone(), "a bracket is not closed".into()),
-        tokens.len(),
-    )
+    ((tokens[at].range.clone(), "a bracket is not closed".into()), tokens.len())
 }
 
 /// The token that closes the bracket at `open`; a closer of another sort does not count.
@@ -204,11 +185,7 @@ pub(crate) fn signature(text: &str, function: &Declaration) -> Option<Signature>
         _ => None,
     };
     let body = tokens[brace].range.end..tokens.last()?.range.start;
-    Some(Signature {
-        parameters,
-        result,
-        body,
-    })
+    Some(Signature { parameters, result, body })
 }
 
 /// The members of a struct declaration of `text`.
@@ -272,12 +249,8 @@ pub(crate) fn returned(text: &str, body: Range<usize>) -> Option<String> {
     let text = &text[body];
     let tokens = tokenize(text);
     let (first, last) = (tokens.first()?, tokens.last()?);
-    let one = first.is_word(text, "return")
-        && tokens.iter().filter(|t| t.is(b';')).count() == 1
-        && last.is(b';');
-    let expression = tokens
-        .get(1..tokens.len() - 1)
-        .filter(|e| one && !e.is_empty())?;
+    let one = first.is_word(text, "return") && tokens.iter().filter(|t| t.is(b';')).count() == 1 && last.is(b';');
+    let expression = tokens.get(1..tokens.len() - 1).filter(|e| one && !e.is_empty())?;
     Some(text[expression.first()?.range.start..expression.last()?.range.end].to_owned())
 }
 
@@ -299,17 +272,9 @@ fn g() { }
     fn declarations_in_order() {
         let (found, mistakes) = split(TEXT);
         assert!(mistakes.is_empty(), "{mistakes:?}");
-        let names: Vec<_> = found
-            .iter()
-            .map(|d| format!("{} {}", d.keyword, d.name))
-            .collect();
-        assert_eq!(
-            names,
-            ["const A", "struct S", "var u", "alias T", "fn f", "fn g"]
-        );
-        assert!(
-            TEXT[found[2].range.clone()].starts_with("@group") && found[4].entry && !found[5].entry
-        );
+        let names: Vec<_> = found.iter().map(|d| format!("{} {}", d.keyword, d.name)).collect();
+        assert_eq!(names, ["const A", "struct S", "var u", "alias T", "fn f", "fn g"]);
+        assert!(TEXT[found[2].range.clone()].starts_with("@group") && found[4].entry && !found[5].entry);
     }
 
     #[test]
@@ -317,16 +282,10 @@ fn g() { }
         let (found, _) = split(TEXT);
         let f = signature(TEXT, &found[4]).unwrap();
         assert_eq!(f.parameters[1].ty, "mat4x4<f32>");
-        assert_eq!(
-            (f.parameters.len(), f.result.as_deref()),
-            (2, Some("vec4<f32>"))
-        );
+        assert_eq!((f.parameters.len(), f.result.as_deref()), (2, Some("vec4<f32>")));
         assert_eq!(signature(TEXT, &found[5]).unwrap().result, None);
         let members = members(TEXT, &found[1]);
-        assert_eq!(
-            (members[0].name.as_str(), members[1].ty.as_str()),
-            ("a", "array<vec4f, 9>")
-        );
+        assert_eq!((members[0].name.as_str(), members[1].ty.as_str()), ("a", "array<vec4f, 9>"));
     }
 
     #[test]
@@ -347,16 +306,7 @@ fn g() { }
 
     #[test]
     fn hostile_text_ends() {
-        for text in [
-            "@",
-            "@a(",
-            "fn",
-            "fn f(",
-            "var<",
-            "struct S { a",
-            ")",
-            "@a @b @c",
-        ] {
+        for text in ["@", "@a(", "fn", "fn f(", "var<", "struct S { a", ")", "@a @b @c"] {
             let (found, mistakes) = split(text);
             assert!(found.is_empty() && !mistakes.is_empty(), "{text}");
         }

@@ -13,11 +13,13 @@ use crate::diagnostic::{Diagnostic, Place, SourceText, did_you_mean};
 /// What a pass runs over.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum PassKind {
-    /// The objects of the scene.
+    /// The objects of the scene, drawn from the light. Group 0 binding 0: `LightSpace`; group 1 binding 0: the object
+    /// block; vertex location 0: object-space position. A colour target gets a depth buffer beside it.
     Geometry,
-    /// Every texel of an image.
+    /// Every texel of an image: a full-screen triangle that reads group 0 binding 0 (`texture_2d<f32>`) and writes a
+    /// texture of the same size and format.
     Image,
-    /// Every texel of every mip level but the first.
+    /// Every texel of every mip level but the first: as an image pass, but from each level of a texture to the next.
     Mip,
 }
 
@@ -55,9 +57,7 @@ pub struct PassFile {
     pub source: Arc<SourceText>,
 }
 
-const KEYS: &[&str] = &[
-    "kind", "use", "target", "clear", "axes", "skip", "option", "label",
-];
+const KEYS: &[&str] = &["kind", "use", "target", "clear", "axes", "skip", "option", "label"];
 
 impl PassFile {
     /// Reads the header of a pass; the file's stem is its name.
@@ -79,9 +79,8 @@ impl PassFile {
             source: source.clone(),
         };
         let mut seen: Vec<&str> = Vec::new();
-        let header = lines(&source.text)
-            .map(Piece::trim)
-            .take_while(|l| l.text.is_empty() || l.text.starts_with("//!"));
+        let header =
+            lines(&source.text).map(Piece::trim).take_while(|l| l.text.is_empty() || l.text.starts_with("//!"));
         for line in header.filter(|l| !l.text.is_empty()) {
             let line = line.slice(3..line.text.len()).trim();
             let Some((key, value)) = line.split_once(":") else {
@@ -96,27 +95,14 @@ impl PassFile {
             };
             if known {
                 if seen.contains(&key.text) {
-                    report.error(
-                        "ST104",
-                        key.range(),
-                        format!("`{}` is said twice", key.text),
-                    );
+                    report.error("ST0104", key.range(), format!("`{}` is said twice", key.text));
                 } else {
                     seen.push(key.text);
                     pass.line(&mut report, &words, value);
                 }
-            } else if words.len() == 1
-                && key
-                    .text
-                    .bytes()
-                    .all(|b| b.is_ascii_lowercase() || b == b'_')
-            {
+            } else if words.len() == 1 && key.text.bytes().all(|b| b.is_ascii_lowercase() || b == b'_') {
                 report
-                    .error(
-                        "ST101",
-                        key.range(),
-                        format!("`{}` is not a key of pass headers", key.text),
-                    )
+                    .error("ST0101", key.range(), format!("`{}` is not a key of pass headers", key.text))
                     .suggest(did_you_mean(key.text, KEYS.iter().copied()));
             } else {
                 pass.describe(line);
@@ -124,15 +110,11 @@ impl PassFile {
         }
         if !seen.contains(&"kind") {
             report
-                .error("ST138", 0..0, "the header says no kind")
+                .error("ST0138", 0..0, "the header says no kind")
                 .help("add a line `//! kind: geometry`, `//! kind: image` or `//! kind: mip`");
         }
         pass.judge_skip(&mut report);
-        if report.found.is_empty() {
-            Ok(pass)
-        } else {
-            Err(report.found)
-        }
+        if report.found.is_empty() { Ok(pass) } else { Err(report.found) }
     }
 
     fn describe(&mut self, line: Piece<'_>) {
@@ -146,7 +128,7 @@ impl PassFile {
         let alternatives = |report: &mut Report| -> Vec<String> {
             let parts = value.split('|');
             for part in parts.iter().filter(|p| p.text.is_empty()) {
-                report.error("ST138", part.range(), "an empty alternative");
+                report.error("ST0138", part.range(), "an empty alternative");
             }
             parts.iter().map(|p| p.text.to_owned()).collect()
         };
@@ -158,11 +140,7 @@ impl PassFile {
                     "mip" => PassKind::Mip,
                     other => {
                         report
-                            .error(
-                                "ST138",
-                                value.range(),
-                                format!("`{other}` is not a kind of pass"),
-                            )
+                            .error("ST0138", value.range(), format!("`{other}` is not a kind of pass"))
                             .help("kinds are geometry, image, mip");
                         return;
                     }
@@ -174,33 +152,25 @@ impl PassFile {
             "axes" => {
                 self.axes = alternatives(report);
                 if self.axes.iter().any(|a| a != "x" && a != "y") {
-                    report.error("ST138", value.range(), "axes are x and y");
+                    report.error("ST0138", value.range(), "axes are x and y");
                 }
             }
             "clear" => {
                 let inner = value.text.trim_start_matches('(').trim_end_matches(')');
-                let numbers = inner
-                    .split([',', ' '])
-                    .filter(|n| !n.is_empty())
-                    .map(|n| n.parse::<f64>());
+                let numbers = inner.split([',', ' ']).filter(|n| !n.is_empty()).map(|n| n.parse::<f64>());
                 match numbers.collect::<Result<Vec<f64>, _>>() {
-                    Ok(n) if (1..=4).contains(&n.len()) && n.iter().all(|x| x.is_finite()) => {
-                        self.clear = n
-                    }
+                    Ok(n) if (1..=4).contains(&n.len()) && n.iter().all(|x| x.is_finite()) => self.clear = n,
                     _ => {
-                        report.error("ST138", value.range(), "`clear` takes one to four numbers");
+                        report.error("ST0138", value.range(), "`clear` takes one to four numbers");
                     }
                 }
             }
             "skip" => match value.split_once("==") {
                 Some((option, value)) => {
-                    self.skip = Some(Skip {
-                        option: option.text.to_owned(),
-                        value: value.text.to_owned(),
-                    });
+                    self.skip = Some(Skip { option: option.text.to_owned(), value: value.text.to_owned() });
                 }
                 None => {
-                    report.error("ST138", value.range(), "`skip` reads `OPTION == CHOICE`");
+                    report.error("ST0138", value.range(), "`skip` reads `OPTION == CHOICE`");
                 }
             },
             _ => {}
@@ -212,18 +182,10 @@ impl PassFile {
         match self.options.iter().find(|o| o.name == skip.option) {
             Some(option) if option.choices.contains(&skip.value) => {}
             Some(_) => {
-                report.error(
-                    "ST138",
-                    0..0,
-                    format!("`{}` is not a choice of `{}`", skip.value, skip.option),
-                );
+                report.error("ST0138", 0..0, format!("`{}` is not a choice of `{}`", skip.value, skip.option));
             }
             None => {
-                report.error(
-                    "ST107",
-                    0..0,
-                    format!("`skip` names no option: `{}`", skip.option),
-                );
+                report.error("ST0107", 0..0, format!("`skip` names no option: `{}`", skip.option));
             }
         }
     }
@@ -231,11 +193,7 @@ impl PassFile {
     /// Whether the pass is left out for these choices.
     pub fn is_skipped(&self, choices: &Choices) -> bool {
         self.skip.as_ref().is_some_and(|skip| {
-            let default = self
-                .options
-                .iter()
-                .find(|o| o.name == skip.option)
-                .map(|o| &o.default);
+            let default = self.options.iter().find(|o| o.name == skip.option).map(|o| &o.default);
             choices.get(&skip.option).or(default) == Some(&skip.value)
         })
     }
@@ -249,45 +207,24 @@ impl PassFile {
         let mut report = Report::new(&self.source);
         let choices = resolve(&self.options, choices, Place::file(&self.source.name))?;
         let applied = file::apply(&mut report, &self.options, &choices);
-        for name in self
-            .uses
-            .iter()
-            .filter(|name| catalog.library(name).is_none())
-        {
+        for name in self.uses.iter().filter(|name| catalog.library(name).is_none()) {
             report
-                .error("ST128", 0..0, format!("there is no library `{name}`"))
+                .error("ST0128", 0..0, format!("there is no library `{name}`"))
                 .suggest(did_you_mean(name, catalog.library_names()));
         }
         if !report.found.is_empty() {
             return Err(report.found);
         }
         let own = file::items_of(&applied);
-        let entries: Vec<&str> = applied
-            .declarations
-            .iter()
-            .filter(|d| d.entry)
-            .map(|d| d.name.as_str())
-            .collect();
+        let entries: Vec<&str> = applied.declarations.iter().filter(|d| d.entry).map(|d| d.name.as_str()).collect();
         if entries.is_empty() {
-            report.error(
-                "ST121",
-                0..0,
-                format!("the pass `{}` has no entry point", self.name),
-            );
+            report.error("ST0121", 0..0, format!("the pass `{}` has no entry point", self.name));
             return Err(report.found);
         }
-        let items: Vec<&Item> = catalog
-            .closure(&self.uses)
-            .into_iter()
-            .flat_map(|l| &l.items)
-            .chain(&own)
-            .collect();
+        let items: Vec<&Item> = catalog.closure(&self.uses).into_iter().flat_map(|l| &l.items).chain(&own).collect();
         let kept = reachable(&items, &entries);
-        let texts: Vec<&str> = items
-            .iter()
-            .filter(|i| kept.contains(i.name.as_str()))
-            .map(|i| i.text.as_str())
-            .collect();
+        let texts: Vec<&str> =
+            items.iter().filter(|i| kept.contains(i.name.as_str())).map(|i| i.text.as_str()).collect();
         Ok(texts.join("\n\n") + "\n")
     }
 }
@@ -333,11 +270,7 @@ fn unused() -> f32 { return 1.0; }
 
     fn pass(text: &str) -> Result<PassFile, Vec<String>> {
         let found = PassFile::parse(&SourceText::new("shaders/blur.wgsl", text));
-        found.map_err(|e| {
-            e.into_iter()
-                .map(|d| format!("{} {}", d.code, d.message))
-                .collect()
-        })
+        found.map_err(|e| e.into_iter().map(|d| format!("{} {}", d.code, d.message)).collect())
     }
 
     #[test]
@@ -345,10 +278,7 @@ fn unused() -> f32 { return 1.0; }
         let p = pass(BLUR).unwrap();
         assert_eq!((p.name.as_str(), p.kind), ("blur", PassKind::Image));
         assert_eq!(p.targets, ["rg32float", "rg16float"]);
-        assert_eq!(
-            (p.clear.as_slice(), p.axes.len()),
-            ([1.0, 0.5].as_slice(), 2)
-        );
+        assert_eq!((p.clear.as_slice(), p.axes.len()), ([1.0, 0.5].as_slice(), 2));
         assert_eq!(p.description, "Blurs along one axis.");
         assert!(!p.is_skipped(&Choices::new()));
         assert!(p.is_skipped(&Choices::from([("mode".into(), "none".into())])));
@@ -359,20 +289,9 @@ fn unused() -> f32 { return 1.0; }
         let mut catalog = Catalog::default();
         let library = "fn corner(i: u32) -> vec4f { return vec4f(f32(i)); }\nfn other() -> f32 { return 1.0; }";
         assert!(catalog.add_library("taps.wgsl", library).is_empty());
-        let text = pass(BLUR)
-            .unwrap()
-            .text(&Choices::from([("width".into(), "3".into())]), &catalog)
-            .unwrap();
-        assert!(
-            text.contains("fn corner")
-                && text.contains("var input")
-                && text.contains("WIDTH: i32 = 3;"),
-            "{text}"
-        );
-        assert!(
-            !text.contains("unused") && !text.contains("other"),
-            "{text}"
-        );
+        let text = pass(BLUR).unwrap().text(&Choices::from([("width".into(), "3".into())]), &catalog).unwrap();
+        assert!(text.contains("fn corner") && text.contains("var input") && text.contains("WIDTH: i32 = 3;"), "{text}");
+        assert!(!text.contains("unused") && !text.contains("other"), "{text}");
         assert!(naga::front::wgsl::parse_str(&text).is_ok());
     }
 
@@ -381,17 +300,10 @@ fn unused() -> f32 { return 1.0; }
         let found = pass("//! kind: imge\n//! axs: x\n//! axes: z\n//! clear: a\n//! skip: a == b\n//! skip: a == c\n")
             .unwrap_err();
         let codes: Vec<&str> = found.iter().map(|f| &f[..5]).collect();
-        assert_eq!(
-            codes,
-            ["ST138", "ST101", "ST138", "ST138", "ST104", "ST107"],
-            "{found:?}"
-        );
-        assert!(pass("").unwrap_err()[0].starts_with("ST138"));
+        assert_eq!(codes, ["ST0138", "ST0101", "ST0138", "ST0138", "ST0104", "ST0107"], "{found:?}");
+        assert!(pass("").unwrap_err()[0].starts_with("ST0138"));
         let p = pass(BLUR).unwrap();
-        assert_eq!(
-            p.text(&Choices::new(), &Catalog::default()).unwrap_err()[0].code,
-            "ST128"
-        );
+        assert_eq!(p.text(&Choices::new(), &Catalog::default()).unwrap_err()[0].code, "ST0128");
         let bad = Choices::from([("width".into(), "4".into()), ("wdth".into(), "3".into())]);
         assert_eq!(p.text(&bad, &Catalog::default()).unwrap_err().len(), 2);
     }

@@ -29,38 +29,23 @@ const FORM: &str = "write `/// name (meaning; = default; range; flags): What it 
 /// Whether a doc line means to be a port line; where port lines are voluntary, others are prose.
 pub(crate) fn looks_like_port(line: &str) -> bool {
     let line = line.trim();
-    line.starts_with("->")
-        || line
-            .split_once('(')
-            .is_some_and(|(n, _)| super::tokens::is_identifier(n.trim()))
+    line.starts_with("->") || line.split_once('(').is_some_and(|(n, _)| super::tokens::is_identifier(n.trim()))
 }
 
 /// Reads one port line, `///` left out. Nothing: it is so broken that it names no port.
 pub(crate) fn parse(report: &mut Report, line: Piece<'_>) -> Option<PortLine> {
     let line = line.trim();
     let (output, rest) = match line.text.strip_prefix("->") {
-        Some(rest) => (
-            true,
-            line.slice(line.text.len() - rest.len()..line.text.len())
-                .trim(),
-        ),
+        Some(rest) => (true, line.slice(line.text.len() - rest.len()..line.text.len()).trim()),
         None => (false, line),
     };
     let Some((open, end)) = parentheses(rest.text) else {
-        report
-            .error("ST112", line.range(), "a port line without `(meaning)`")
-            .help(FORM);
+        report.error("ST0112", line.range(), "a port line without `(meaning)`").help(FORM);
         return None;
     };
     let name = rest.slice(0..open).trim();
     if !super::tokens::is_identifier(name.text) {
-        report
-            .error(
-                "ST112",
-                name.range(),
-                format!("`{}` is not a name", name.text),
-            )
-            .help(FORM);
+        report.error("ST0112", name.range(), format!("`{}` is not a name", name.text)).help(FORM);
         return None;
     }
     let tail = rest.slice(end + 1..rest.text.len()).trim();
@@ -68,11 +53,7 @@ pub(crate) fn parse(report: &mut Report, line: Piece<'_>) -> Option<PortLine> {
         Some(doc) if !doc.trim().is_empty() => doc.trim().to_owned(),
         _ => {
             report
-                .error(
-                    "ST112",
-                    tail.range(),
-                    format!("the line of `{}` does not say what it is for", name.text),
-                )
+                .error("ST0112", tail.range(), format!("the line of `{}` does not say what it is for", name.text))
                 .help(FORM)
                 .port(name.text);
             String::new()
@@ -111,21 +92,12 @@ pub(crate) fn parse(report: &mut Report, line: Piece<'_>) -> Option<PortLine> {
             false
         };
         if again {
-            report
-                .error("ST104", part.range(), "said twice")
-                .port(&port.name);
+            report.error("ST0104", part.range(), "said twice").port(&port.name);
         }
     }
     if output && (port.default.is_some() || port.hidden || port.range != (None, None)) {
         report
-            .error(
-                "ST112",
-                rest.range(),
-                format!(
-                    "the output `{}` has a default, a range or is hidden",
-                    port.name
-                ),
-            )
+            .error("ST0112", rest.range(), format!("the output `{}` has a default, a range or is hidden", port.name))
             .help("only inputs have those")
             .port(&port.name);
     }
@@ -153,15 +125,11 @@ fn read_meaning(report: &mut Report, piece: Piece<'_>) -> Meaning {
     Meaning::parse(piece.text).unwrap_or_else(|message| {
         let unknown = message.split('`').nth(1).unwrap_or_default();
         let words = Kind::ALL.iter().map(|k| k.word());
-        let words = words
-            .chain(Frame::ALL.iter().map(|k| k.word()))
-            .chain(Length::ALL.iter().map(|k| k.word()));
+        let words = words.chain(Frame::ALL.iter().map(|k| k.word())).chain(Length::ALL.iter().map(|k| k.word()));
         let words = words.chain(Quantity::ALL.iter().map(|k| k.word()));
-        let words = words
-            .chain(Encoding::ALL.iter().map(|k| k.word()))
-            .filter(|w| !w.is_empty());
+        let words = words.chain(Encoding::ALL.iter().map(|k| k.word())).filter(|w| !w.is_empty());
         let near = did_you_mean(unknown, words);
-        report.error("ST113", piece.range(), message).suggest(near);
+        report.error("ST0113", piece.range(), message).suggest(near);
         Meaning::of(Kind::Number)
     })
 }
@@ -170,11 +138,7 @@ fn default(report: &mut Report, piece: Piece<'_>) -> Option<Default> {
     if let Some(name) = piece.text.strip_prefix('@') {
         if source(name).is_none() {
             report
-                .error(
-                    "ST115",
-                    piece.range(),
-                    format!("the compiler provides no `@{name}`"),
-                )
+                .error("ST0115", piece.range(), format!("the compiler provides no `@{name}`"))
                 .suggest(did_you_mean(name, sources().iter().map(|s| s.name)));
             return None;
         }
@@ -184,27 +148,14 @@ fn default(report: &mut Report, piece: Piece<'_>) -> Option<Default> {
         "true" => Some(Value::Bool(true)),
         "false" => Some(Value::Bool(false)),
         text => {
-            let inner = text
-                .strip_prefix('(')
-                .and_then(|t| t.strip_suffix(')'))
-                .unwrap_or(text);
-            let numbers: Option<Vec<f64>> = inner
-                .split(',')
-                .take(17)
-                .map(|n| number(n.trim()))
-                .collect();
-            numbers
-                .filter(|n| n.len() <= 16 && (n.len() == 1 || inner.len() < text.len()))
-                .map(Value::Numbers)
+            let inner = text.strip_prefix('(').and_then(|t| t.strip_suffix(')')).unwrap_or(text);
+            let numbers: Option<Vec<f64>> = inner.split(',').take(17).map(|n| number(n.trim())).collect();
+            numbers.filter(|n| n.len() <= 16 && (n.len() == 1 || inner.len() < text.len())).map(Value::Numbers)
         }
     };
     if value.is_none() {
         report
-            .error(
-                "ST114",
-                piece.range(),
-                format!("`{}` is not a value", piece.text),
-            )
+            .error("ST0114", piece.range(), format!("`{}` is not a value", piece.text))
             .help("a default is a number, (a, b, c), true, false or @source");
     }
     value.map(Default::Value)
@@ -225,11 +176,7 @@ fn range(report: &mut Report, piece: Piece<'_>, port: &mut PortLine) {
         let found = number(end.text);
         if found.is_none() {
             report
-                .error(
-                    "ST116",
-                    piece.range(),
-                    format!("`{}` is not a range", piece.text),
-                )
+                .error("ST0116", piece.range(), format!("`{}` is not a range", piece.text))
                 .help("a range reads `0..1`, `0..` or `..1`")
                 .port(&port.name);
         }
@@ -237,33 +184,19 @@ fn range(report: &mut Report, piece: Piece<'_>, port: &mut PortLine) {
     };
     port.range = (limit(low), limit(high));
     if low.text.is_empty() && high.text.is_empty() {
-        report
-            .error("ST116", piece.range(), "a range without an end")
-            .port(&port.name);
+        report.error("ST0116", piece.range(), "a range without an end").port(&port.name);
     }
     if let (Some(low), Some(high)) = port.range
         && low > high
     {
-        report
-            .error(
-                "ST116",
-                piece.range(),
-                format!("the range {low}..{high} is empty"),
-            )
-            .port(&port.name);
+        report.error("ST0116", piece.range(), format!("the range {low}..{high} is empty")).port(&port.name);
     }
 }
 
 fn flags(report: &mut Report, piece: Piece<'_>, port: &mut PortLine) {
-    let words: Vec<Piece<'_>> = piece
-        .split(',')
-        .into_iter()
-        .flat_map(Piece::words)
-        .collect();
+    let words: Vec<Piece<'_>> = piece.split(',').into_iter().flat_map(Piece::words).collect();
     if words.is_empty() {
-        report
-            .error("ST112", piece.range(), "an empty entry between `;`")
-            .port(&port.name);
+        report.error("ST0112", piece.range(), "an empty entry between `;`").port(&port.name);
     }
     let mut words = words.into_iter();
     while let Some(word) = words.next() {
@@ -272,20 +205,18 @@ fn flags(report: &mut Report, piece: Piece<'_>, port: &mut PortLine) {
             // Values in files are sRGB; what the function gets is linear.
             "srgb" => port.unit = "srgb".into(),
             "in" => match words.next() {
-                Some(unit) if matches!(unit.text, "deg" | "m" | "s" | "px") => {
-                    port.unit = unit.text.to_owned()
-                }
+                Some(unit) if matches!(unit.text, "deg" | "m" | "s" | "px") => port.unit = unit.text.to_owned(),
                 unit => {
                     let at = unit.unwrap_or(word);
                     report
-                        .error("ST112", at.range(), format!("`{}` is not a unit", at.text))
+                        .error("ST0112", at.range(), format!("`{}` is not a unit", at.text))
                         .help("units are deg, m, s, px")
                         .port(&port.name);
                 }
             },
             other => {
                 report
-                    .error("ST112", word.range(), format!("`{other}` is not a flag"))
+                    .error("ST0112", word.range(), format!("`{other}` is not a flag"))
                     .help("flags are `in deg`, `in m`, `in s`, `in px`, `hidden`, `srgb`")
                     .port(&port.name);
             }
@@ -313,14 +244,8 @@ mod tests {
         let (port, errors) = read(" angle (angle; = 30; 0..90; in deg, hidden): How wide.");
         let port = port.unwrap();
         assert!(errors.is_empty() && port.hidden && !port.output);
-        assert_eq!(
-            (port.unit.as_str(), port.range),
-            ("deg", (Some(0.0), Some(90.0)))
-        );
-        assert_eq!(
-            port.default.unwrap().0,
-            Default::Value(Value::Numbers(vec![30.0]))
-        );
+        assert_eq!((port.unit.as_str(), port.range), ("deg", (Some(0.0), Some(90.0))));
+        assert_eq!(port.default.unwrap().0, Default::Value(Value::Numbers(vec![30.0])));
         assert_eq!(port.doc, "How wide.");
     }
 
@@ -328,10 +253,7 @@ mod tests {
     fn tuples_sources_and_open_ranges() {
         let (port, _) = read("up (direction world; = (0, 1, 0); ..1): Up.");
         let port = port.unwrap();
-        assert_eq!(
-            port.default.unwrap().0,
-            Default::Value(Value::Numbers(vec![0.0, 1.0, 0.0]))
-        );
+        assert_eq!(port.default.unwrap().0, Default::Value(Value::Numbers(vec![0.0, 1.0, 0.0])));
         assert_eq!(port.range, (None, Some(1.0)));
         let (port, _) = read("-> n (normal world): N.");
         assert!(port.unwrap().output);
@@ -340,21 +262,21 @@ mod tests {
     #[test]
     fn each_mistake_at_its_place() {
         for (line, expected) in [
-            ("what it does", "ST112 what it does: "),
-            ("a b (scalar): X.", "ST112 a b: "),
-            ("a (scalr): X.", "ST113 scalr: "),
-            ("a (scalar wrold): X.", "ST113 scalar wrold: "),
-            ("a (scalar)", "ST112 : "),
-            ("a (scalar; = @tme): X.", "ST115 @tme: "),
-            ("a (scalar; = 1, 2): X.", "ST114 1, 2: "),
-            ("a (scalar; = inf): X.", "ST114 inf: "),
-            ("a (scalar; 1..0): X.", "ST116 1..0: "),
-            ("a (scalar; a..0): X.", "ST116 a..0: "),
-            ("a (scalar; ..): X.", "ST116 ..: "),
-            ("a (scalar; in ft): X.", "ST112 ft: "),
-            ("a (scalar; loud): X.", "ST112 loud: "),
-            ("a (scalar; = 1; = 2): X.", "ST104 = 2: "),
-            ("-> a (scalar; = 1): X.", "ST112 a (scalar; = 1): X.: "),
+            ("what it does", "ST0112 what it does: "),
+            ("a b (scalar): X.", "ST0112 a b: "),
+            ("a (scalr): X.", "ST0113 scalr: "),
+            ("a (scalar wrold): X.", "ST0113 scalar wrold: "),
+            ("a (scalar)", "ST0112 : "),
+            ("a (scalar; = @tme): X.", "ST0115 @tme: "),
+            ("a (scalar; = 1, 2): X.", "ST0114 1, 2: "),
+            ("a (scalar; = inf): X.", "ST0114 inf: "),
+            ("a (scalar; 1..0): X.", "ST0116 1..0: "),
+            ("a (scalar; a..0): X.", "ST0116 a..0: "),
+            ("a (scalar; ..): X.", "ST0116 ..: "),
+            ("a (scalar; in ft): X.", "ST0112 ft: "),
+            ("a (scalar; loud): X.", "ST0112 loud: "),
+            ("a (scalar; = 1; = 2): X.", "ST0104 = 2: "),
+            ("-> a (scalar; = 1): X.", "ST0112 a (scalar; = 1): X.: "),
         ] {
             let (_, errors) = read(line);
             assert_eq!(errors.len(), 1, "{line}: {errors:?}");

@@ -15,19 +15,11 @@ pub(crate) struct Report {
 
 impl Report {
     pub(crate) fn new(source: &Arc<SourceText>) -> Self {
-        Self {
-            source: source.clone(),
-            found: Vec::new(),
-        }
+        Self { source: source.clone(), found: Vec::new() }
     }
 
     /// Adds an error; the result takes help and notes.
-    pub(crate) fn error(
-        &mut self,
-        code: &'static str,
-        range: Range<usize>,
-        message: impl Into<String>,
-    ) -> Entry<'_> {
+    pub(crate) fn error(&mut self, code: &'static str, range: Range<usize>, message: impl Into<String>) -> Entry<'_> {
         let place = Place::span(Span::new(&self.source, range));
         self.found.push(Diagnostic::error(code, message, place));
         let last = self.found.len() - 1;
@@ -80,19 +72,13 @@ impl<'a> Piece<'a> {
 
     /// Bytes `range` of it.
     pub(crate) fn slice(self, range: Range<usize>) -> Self {
-        Self {
-            at: self.at + range.start,
-            text: &self.text[range],
-        }
+        Self { at: self.at + range.start, text: &self.text[range] }
     }
 
     /// Without white space around it.
     pub(crate) fn trim(self) -> Self {
         let lead = self.text.len() - self.text.trim_start().len();
-        Self {
-            text: self.text.trim(),
-            at: self.at + lead,
-        }
+        Self { text: self.text.trim(), at: self.at + lead }
     }
 
     /// The trimmed parts between `separator`s that stand outside parentheses.
@@ -116,10 +102,7 @@ impl<'a> Piece<'a> {
     /// What stands before and after the first `separator`, trimmed.
     pub(crate) fn split_once(self, separator: &str) -> Option<(Self, Self)> {
         let i = self.text.find(separator)?;
-        Some((
-            self.slice(0..i).trim(),
-            self.slice(i + separator.len()..self.text.len()).trim(),
-        ))
+        Some((self.slice(0..i).trim(), self.slice(i + separator.len()..self.text.len()).trim()))
     }
 
     /// The words of it.

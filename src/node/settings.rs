@@ -10,13 +10,9 @@ pub(crate) fn list(report: &mut Report, value: Piece<'_>) -> Vec<String> {
     let mut found: Vec<String> = Vec::new();
     for part in value.split(',') {
         if part.text.is_empty() {
-            report.error("ST102", part.range(), "an empty entry in a list");
+            report.error("ST0102", part.range(), "an empty entry in a list");
         } else if found.iter().any(|f| f == part.text) {
-            report.error(
-                "ST104",
-                part.range(),
-                format!("`{}` is said twice", part.text),
-            );
+            report.error("ST0104", part.range(), format!("`{}` is said twice", part.text));
         } else {
             found.push(part.text.to_owned());
         }
@@ -28,11 +24,7 @@ pub(crate) fn list(report: &mut Report, value: Piece<'_>) -> Vec<String> {
 pub(crate) fn names(report: &mut Report, value: Piece<'_>) -> Vec<String> {
     for part in value.split(',') {
         if !part.text.is_empty() && !is_identifier(part.text) {
-            report.error(
-                "ST102",
-                part.range(),
-                format!("`{}` is not a name", part.text),
-            );
+            report.error("ST0102", part.range(), format!("`{}` is not a name", part.text));
         }
     }
     let mut found = list(report, value);
@@ -41,27 +33,19 @@ pub(crate) fn names(report: &mut Report, value: Piece<'_>) -> Vec<String> {
 }
 
 /// `name` or `name(arguments)`.
-pub(crate) fn call<'a>(
-    report: &mut Report,
-    value: Piece<'a>,
-) -> Option<(Piece<'a>, Option<Piece<'a>>)> {
+pub(crate) fn call<'a>(report: &mut Report, value: Piece<'a>) -> Option<(Piece<'a>, Option<Piece<'a>>)> {
     let (name, arguments) = match value.text.find('(') {
-        Some(open) if value.text.ends_with(')') => (
-            value.slice(0..open).trim(),
-            Some(value.slice(open + 1..value.text.len() - 1).trim()),
-        ),
+        Some(open) if value.text.ends_with(')') => {
+            (value.slice(0..open).trim(), Some(value.slice(open + 1..value.text.len() - 1).trim()))
+        }
         Some(_) => {
-            report.error("ST102", value.range(), "a parenthesis is not closed");
+            report.error("ST0102", value.range(), "a parenthesis is not closed");
             return None;
         }
         None => (value, None),
     };
     if !is_identifier(name.text) {
-        report.error(
-            "ST102",
-            name.range(),
-            format!("`{}` is not a name", name.text),
-        );
+        report.error("ST0102", name.range(), format!("`{}` is not a name", name.text));
         return None;
     }
     Some((name, arguments))
@@ -73,63 +57,35 @@ pub(crate) fn option(report: &mut Report, name: Piece<'_>, value: Piece<'_>) -> 
         Some((rule, doc)) => (rule, doc.text.to_owned()),
         None => {
             report
-                .error(
-                    "ST102",
-                    value.range(),
-                    format!("option `{}` does not say what it is for", name.text),
-                )
+                .error("ST0102", value.range(), format!("option `{}` does not say what it is for", name.text))
                 .help("write `option NAME: a | b = a - What it chooses.`");
             (value, String::new())
         }
     };
     let Some((choices, default)) = rule.split_once("=") else {
         report
-            .error(
-                "ST102",
-                rule.range(),
-                format!("option `{}` has no default", name.text),
-            )
+            .error("ST0102", rule.range(), format!("option `{}` has no default", name.text))
             .help("write `option NAME: a | b = a - What it chooses.`");
         return None;
     };
     let mut found: Vec<String> = Vec::new();
     for choice in choices.split('|') {
-        let word = choice
-            .text
-            .bytes()
-            .all(|b| b.is_ascii_alphanumeric() || matches!(b, b'_' | b'.' | b'-' | b'+'));
+        let word = choice.text.bytes().all(|b| b.is_ascii_alphanumeric() || matches!(b, b'_' | b'.' | b'-' | b'+'));
         if choice.text.is_empty() || !word {
-            report.error(
-                "ST102",
-                choice.range(),
-                format!("`{}` is not a choice", choice.text),
-            );
+            report.error("ST0102", choice.range(), format!("`{}` is not a choice", choice.text));
         } else if found.iter().any(|f| f == choice.text) {
-            report.error(
-                "ST104",
-                choice.range(),
-                format!("`{}` is said twice", choice.text),
-            );
+            report.error("ST0104", choice.range(), format!("`{}` is said twice", choice.text));
         } else {
             found.push(choice.text.to_owned());
         }
     }
     if !found.iter().any(|f| f == default.text) {
         report
-            .error(
-                "ST105",
-                default.range(),
-                format!("the default `{}` is not among the choices", default.text),
-            )
+            .error("ST0105", default.range(), format!("the default `{}` is not among the choices", default.text))
             .suggest(did_you_mean(default.text, found.iter().map(String::as_str)));
         return None;
     }
-    Some(OptionSpec {
-        name: name.text.to_owned(),
-        choices: found,
-        default: default.text.to_owned(),
-        doc,
-    })
+    Some(OptionSpec { name: name.text.to_owned(), choices: found, default: default.text.to_owned(), doc })
 }
 
 /// `pass(a=1, b=$option) > pass`.
@@ -149,21 +105,13 @@ pub(crate) fn passes<'a>(
 }
 
 /// `key=value` each.
-fn pairs<'a>(
-    report: &mut Report,
-    pieces: &[Piece<'a>],
-    mentioned: &mut Vec<Piece<'a>>,
-) -> Vec<(String, String)> {
+fn pairs<'a>(report: &mut Report, pieces: &[Piece<'a>], mentioned: &mut Vec<Piece<'a>>) -> Vec<(String, String)> {
     let mut found: Vec<(String, String)> = Vec::new();
     for piece in pieces {
         match piece.split_once("=") {
             Some((key, value)) if is_identifier(key.text) && !value.text.is_empty() => {
                 if found.iter().any(|(k, _)| k == key.text) {
-                    report.error(
-                        "ST104",
-                        key.range(),
-                        format!("`{}` is said twice", key.text),
-                    );
+                    report.error("ST0104", key.range(), format!("`{}` is said twice", key.text));
                     continue;
                 }
                 if value.text.starts_with('$') {
@@ -172,11 +120,7 @@ fn pairs<'a>(
                 found.push((key.text.to_owned(), value.text.to_owned()));
             }
             _ => {
-                report.error(
-                    "ST102",
-                    piece.range(),
-                    format!("`{}` does not read `key=value`", piece.text),
-                );
+                report.error("ST0102", piece.range(), format!("`{}` does not read `key=value`", piece.text));
             }
         }
     }
@@ -196,13 +140,7 @@ pub(crate) fn sampler<'a>(
         "compare" => Some(value == "on"),
         _ => None,
     };
-    checked(
-        report,
-        value,
-        mentioned,
-        &known,
-        "filter, address, anisotropy, compare",
-    )
+    checked(report, value, mentioned, &known, "filter, address, anisotropy, compare")
 }
 
 /// Settings of a texture.
@@ -211,8 +149,7 @@ pub(crate) fn texture<'a>(
     value: Piece<'a>,
     mentioned: &mut Vec<Piece<'a>>,
 ) -> Vec<(String, String)> {
-    let known =
-        |key: &str, value: &str| (key == "encoding").then_some(matches!(value, "srgb" | "linear"));
+    let known = |key: &str, value: &str| (key == "encoding").then_some(matches!(value, "srgb" | "linear"));
     checked(report, value, mentioned, &known, "encoding")
 }
 
@@ -229,19 +166,11 @@ fn checked<'a>(
         match known(key, setting) {
             Some(good) if good || setting.starts_with('$') => {}
             Some(_) => {
-                report.error(
-                    "ST102",
-                    value.range(),
-                    format!("`{setting}` is not a value of `{key}`"),
-                );
+                report.error("ST0102", value.range(), format!("`{setting}` is not a value of `{key}`"));
             }
             None => {
                 report
-                    .error(
-                        "ST101",
-                        value.range(),
-                        format!("`{key}` is not a setting here"),
-                    )
+                    .error("ST0101", value.range(), format!("`{key}` is not a setting here"))
                     .help(format!("settings are {keys}"));
             }
         }

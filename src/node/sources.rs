@@ -14,21 +14,11 @@ pub struct Source {
 }
 
 const fn meaning(kind: Kind, frame: Frame, length: Length) -> Meaning {
-    Meaning {
-        kind,
-        frame,
-        length,
-        quantity: Quantity::None,
-        encoding: Encoding::Linear,
-    }
+    Meaning { kind, frame, length, quantity: Quantity::None, encoding: Encoding::Linear }
 }
 
 const fn make(name: &'static str, meaning: Meaning, shape: Shape, doc: &'static str) -> Source {
-    Source {
-        name,
-        ty: Type::new(meaning, shape),
-        doc,
-    }
+    Source { name, ty: Type::new(meaning, shape), doc }
 }
 
 const SCALAR: Shape = Shape::F32(1);
@@ -44,12 +34,7 @@ static SIMPLE: &[Source] = &[
         VEC3,
         "The shaded point in the object's own frame.",
     ),
-    make(
-        "position_world",
-        meaning(Kind::Point, Frame::World, Length::Any),
-        VEC3,
-        "The shaded point in the scene.",
-    ),
+    make("position_world", meaning(Kind::Point, Frame::World, Length::Any), VEC3, "The shaded point in the scene."),
     make(
         "normal_object",
         meaning(Kind::Normal, Frame::Object, Length::Near),
@@ -80,12 +65,7 @@ static SIMPLE: &[Source] = &[
         VEC3,
         "Interpolated direction of growing texture v, in the scene.",
     ),
-    make(
-        "texcoord",
-        meaning(Kind::Texcoord, Frame::Any, Length::Any),
-        VEC2,
-        "Place on the surface's chart.",
-    ),
+    make("texcoord", meaning(Kind::Texcoord, Frame::Any, Length::Any), VEC2, "Place on the surface's chart."),
     make(
         "vertex_color",
         meaning(Kind::Color, Frame::Any, Length::Any),
@@ -98,24 +78,9 @@ static SIMPLE: &[Source] = &[
         VEC3,
         "From the shaded point towards the eye.",
     ),
-    make(
-        "camera_position",
-        meaning(Kind::Point, Frame::World, Length::Any),
-        VEC3,
-        "Where the eye is.",
-    ),
-    make(
-        "camera_forward",
-        meaning(Kind::Direction, Frame::World, Length::Unit),
-        VEC3,
-        "Where the eye looks.",
-    ),
-    make(
-        "time",
-        meaning(Kind::Scalar, Frame::Any, Length::Any),
-        SCALAR,
-        "Seconds since the start.",
-    ),
+    make("camera_position", meaning(Kind::Point, Frame::World, Length::Any), VEC3, "Where the eye is."),
+    make("camera_forward", meaning(Kind::Direction, Frame::World, Length::Unit), VEC3, "Where the eye looks."),
+    make("time", meaning(Kind::Scalar, Frame::Any, Length::Any), SCALAR, "Seconds since the start."),
     make(
         "pixel",
         meaning(Kind::Point, Frame::Screen, Length::Any),
@@ -211,11 +176,7 @@ mod tests {
     #[test]
     fn names_are_unique_and_shapes_read_back() {
         for (i, s) in sources().iter().enumerate() {
-            assert!(
-                sources()[..i].iter().all(|t| t.name != s.name),
-                "{}",
-                s.name
-            );
+            assert!(sources()[..i].iter().all(|t| t.name != s.name), "{}", s.name);
             assert_eq!(Shape::from_wgsl(&s.ty.shape.wgsl()), s.ty.shape);
         }
         assert_eq!(sources().len(), 25);
@@ -223,10 +184,7 @@ mod tests {
 
     #[test]
     fn lookup() {
-        assert_eq!(
-            source("normal_world").unwrap().ty.meaning.to_string(),
-            "normal world near"
-        );
+        assert_eq!(source("normal_world").unwrap().ty.meaning.to_string(), "normal world near");
         assert!(source("@normal_world").is_none());
     }
 }

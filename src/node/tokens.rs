@@ -50,30 +50,19 @@ pub fn tokenize(text: &str) -> Vec<Token> {
             b'/' if bytes.get(at + 1) == Some(&b'/') => at = line_end(bytes, at),
             b'/' if bytes.get(at + 1) == Some(&b'*') => at = comment_end(bytes, at),
             b if b.is_ascii_whitespace() => at += 1,
-            b if b.is_ascii_digit()
-                || (b == b'.' && bytes.get(at + 1).is_some_and(u8::is_ascii_digit)) =>
-            {
+            b if b.is_ascii_digit() || (b == b'.' && bytes.get(at + 1).is_some_and(u8::is_ascii_digit)) => {
                 at = number_end(bytes, at);
-                tokens.push(Token {
-                    kind: TokenKind::Number,
-                    range: start..at,
-                });
+                tokens.push(Token { kind: TokenKind::Number, range: start..at });
             }
             b if is_word(b) => {
                 while at < bytes.len() && is_word(bytes[at]) {
                     at += 1;
                 }
-                tokens.push(Token {
-                    kind: TokenKind::Word,
-                    range: start..at,
-                });
+                tokens.push(Token { kind: TokenKind::Word, range: start..at });
             }
             b => {
                 at += 1;
-                tokens.push(Token {
-                    kind: TokenKind::Punctuation(b),
-                    range: start..at,
-                });
+                tokens.push(Token { kind: TokenKind::Punctuation(b), range: start..at });
             }
         }
     }
@@ -86,10 +75,7 @@ fn is_word(byte: u8) -> bool {
 }
 
 fn line_end(bytes: &[u8], at: usize) -> usize {
-    bytes[at..]
-        .iter()
-        .position(|&b| b == b'\n')
-        .map_or(bytes.len(), |n| at + n)
+    bytes[at..].iter().position(|&b| b == b'\n').map_or(bytes.len(), |n| at + n)
 }
 
 /// Block comments nest in WGSL.
@@ -118,8 +104,7 @@ fn number_end(bytes: &[u8], mut at: usize) -> usize {
     let hex = bytes[at] == b'0' && matches!(bytes.get(at + 1), Some(b'x' | b'X'));
     while at < bytes.len() {
         let sign = matches!(bytes[at], b'+' | b'-')
-            && (matches!(bytes[at - 1], b'p' | b'P')
-                || (!hex && matches!(bytes[at - 1], b'e' | b'E')));
+            && (matches!(bytes[at - 1], b'p' | b'P') || (!hex && matches!(bytes[at - 1], b'e' | b'E')));
         if !(bytes[at].is_ascii_alphanumeric() || bytes[at] == b'.' || (sign && at > 0)) {
             break;
         }
@@ -131,9 +116,7 @@ fn number_end(bytes: &[u8], mut at: usize) -> usize {
 /// Whether `name` is a WGSL identifier of ASCII letters that user code may declare, reserved words aside.
 pub fn is_identifier(name: &str) -> bool {
     let mut bytes = name.bytes();
-    bytes
-        .next()
-        .is_some_and(|b| b.is_ascii_alphabetic() || b == b'_')
+    bytes.next().is_some_and(|b| b.is_ascii_alphabetic() || b == b'_')
         && bytes.all(|b| b.is_ascii_alphanumeric() || b == b'_')
         && name != "_"
         && !name.starts_with("__")
@@ -166,12 +149,8 @@ fn names(text: &str, tokens: &[Token]) -> Vec<usize> {
                 let fixed = i >= 3
                     && before.is_some_and(|t| t.is(b'('))
                     && tokens[i - 3].is(b'@')
-                    && matches!(
-                        tokens[i - 2].text(text),
-                        "builtin" | "interpolate" | "diagnostic"
-                    );
-                let declared =
-                    in_struct && braces == 1 && tokens.get(i + 1).is_some_and(|t| t.is(b':'));
+                    && matches!(tokens[i - 2].text(text), "builtin" | "interpolate" | "diagnostic");
+                let declared = in_struct && braces == 1 && tokens.get(i + 1).is_some_and(|t| t.is(b':'));
                 if !(member || attribute || fixed || declared) {
                     found.push(i);
                 }
@@ -185,10 +164,8 @@ fn names(text: &str, tokens: &[Token]) -> Vec<usize> {
 /// The names that a text mentions, sorted, each once; keywords included.
 pub fn mentions(text: &str) -> Vec<String> {
     let tokens = tokenize(text);
-    let words: std::collections::BTreeSet<&str> = names(text, &tokens)
-        .into_iter()
-        .map(|i| tokens[i].text(text))
-        .collect();
+    let words: std::collections::BTreeSet<&str> =
+        names(text, &tokens).into_iter().map(|i| tokens[i].text(text)).collect();
     words.into_iter().map(str::to_owned).collect()
 }
 
@@ -235,8 +212,7 @@ mod tests {
 
     #[test]
     fn rename_leaves_members_comments_and_attributes() {
-        let text =
-            "struct S { T: T, @builtin(T) u: f32 } // T\nfn T(s: S) -> T { return s.T + T(1); }";
+        let text = "struct S { T: T, @builtin(T) u: f32 } // T\nfn T(s: S) -> T { return s.T + T(1); }";
         let renamed = rename(text, &|w| (w == "T").then(|| "vec3f".into()));
         assert_eq!(
             renamed,
@@ -251,12 +227,7 @@ mod tests {
 
     #[test]
     fn identifiers() {
-        assert!(
-            is_identifier("a_1")
-                && !is_identifier("1a")
-                && !is_identifier("__a")
-                && !is_identifier("_")
-        );
+        assert!(is_identifier("a_1") && !is_identifier("1a") && !is_identifier("__a") && !is_identifier("_"));
         assert!(is_reserved("static") && !is_reserved("albedo"));
     }
 }

@@ -19,7 +19,7 @@ impl NodeFile {
     pub fn verify(&self, catalog: &Catalog) -> Vec<Diagnostic> {
         if let Some((range, message)) = guard(&self.source().text, MAX_FILE) {
             let mut report = Report::new(self.source());
-            report.error("ST130", range, message);
+            report.error("ST0130", range, message);
             return report.found;
         }
         let header = match self.header() {
@@ -31,8 +31,7 @@ impl NodeFile {
             let new = self.verify_one(&header, &choices, catalog);
             for diagnostic in new {
                 let known = |d: &Diagnostic| {
-                    (d.code, &d.place, &d.message)
-                        == (diagnostic.code, &diagnostic.place, &diagnostic.message)
+                    (d.code, &d.place, &d.message) == (diagnostic.code, &diagnostic.place, &diagnostic.message)
                 };
                 if !found.iter().any(known) {
                     found.push(diagnostic);
@@ -51,15 +50,8 @@ impl NodeFile {
         let mut report = Report::new(self.source());
         let applied = file::apply(&mut report, &header.options, &definition.choices);
         let mut found = report.found;
-        let alias = applied
-            .declarations
-            .iter()
-            .find(|d| d.name == "T" && d.keyword == "alias");
-        let widths: &[Shape] = if header.generic.is_empty() {
-            &[Shape::Generic]
-        } else {
-            &header.generic
-        };
+        let alias = applied.declarations.iter().find(|d| d.name == "T" && d.keyword == "alias");
+        let widths: &[Shape] = if header.generic.is_empty() { &[Shape::Generic] } else { &header.generic };
         for width in widths {
             let mut kept = applied.kept.clone();
             if let (Some(alias), false) = (alias, *width == Shape::Generic) {
@@ -67,11 +59,7 @@ impl NodeFile {
             }
             for mut error in check(&libraries, &kept, self.source()) {
                 if !definition.choices.is_empty() {
-                    let made: Vec<String> = definition
-                        .choices
-                        .iter()
-                        .map(|(n, c)| format!("{n} = {c}"))
-                        .collect();
+                    let made: Vec<String> = definition.choices.iter().map(|(n, c)| format!("{n} = {c}")).collect();
                     error.notes.push(format!("with {}", made.join(", ")));
                 }
                 if *width != Shape::Generic {
@@ -87,30 +75,18 @@ impl NodeFile {
 impl Catalog {
     /// An error for each direct `use:` that names no library.
     pub(crate) fn unknown_libraries(&self, header: &Header) -> Vec<Diagnostic> {
-        let unknown = header
-            .uses
-            .iter()
-            .filter(|name| self.library(name).is_none());
+        let unknown = header.uses.iter().filter(|name| self.library(name).is_none());
         unknown
             .map(|name| {
                 let text = &header.source.text;
                 let at = super::report::lines(text)
-                    .find(|l| {
-                        l.text
-                            .trim_start_matches("//!")
-                            .trim_start()
-                            .starts_with("use:")
-                    })
+                    .find(|l| l.text.trim_start_matches("//!").trim_start().starts_with("use:"))
                     .and_then(|l| l.text.find(name.as_str()).map(|i| l.at + i));
                 let place = match at {
-                    Some(at) => Place::span(crate::diagnostic::Span::new(
-                        &header.source,
-                        at..at + name.len(),
-                    )),
+                    Some(at) => Place::span(crate::diagnostic::Span::new(&header.source, at..at + name.len())),
                     None => Place::file(&header.source.name),
                 };
-                let mut error =
-                    Diagnostic::error("ST128", format!("there is no library `{name}`"), place);
+                let mut error = Diagnostic::error("ST0128", format!("there is no library `{name}`"), place);
                 error.help = crate::diagnostic::did_you_mean(name, self.library_names())
                     .map(|near| format!("did you mean `{near}`?"));
                 error
@@ -122,9 +98,7 @@ impl Catalog {
 /// The sets of choices to try: all, or the defaults with one and then two options changed, up to the limit.
 pub(crate) fn combinations(header: &Header) -> Vec<Choices> {
     let options = &header.options;
-    let all = options
-        .iter()
-        .try_fold(1usize, |n, o| n.checked_mul(o.choices.len()));
+    let all = options.iter().try_fold(1usize, |n, o| n.checked_mul(o.choices.len()));
     if all.is_some_and(|n| n <= MAX_COMBINATIONS) {
         return options.iter().fold(vec![Choices::new()], |sets, option| {
             let extended = sets.iter().flat_map(|set| {
@@ -141,27 +115,14 @@ pub(crate) fn combinations(header: &Header) -> Vec<Choices> {
     let changes: Vec<(usize, &String)> = options
         .iter()
         .enumerate()
-        .flat_map(|(i, o)| {
-            o.choices
-                .iter()
-                .filter(|c| **c != o.default)
-                .map(move |c| (i, c))
-        })
+        .flat_map(|(i, o)| o.choices.iter().filter(|c| **c != o.default).map(move |c| (i, c)))
         .collect();
     let change = |picks: &[(usize, &String)]| -> Choices {
-        picks
-            .iter()
-            .map(|(i, c)| (options[*i].name.clone(), (*c).clone()))
-            .collect()
+        picks.iter().map(|(i, c)| (options[*i].name.clone(), (*c).clone())).collect()
     };
     sets.extend(changes.iter().map(|c| change(&[*c])));
     for (n, a) in changes.iter().enumerate() {
-        sets.extend(
-            changes[n + 1..]
-                .iter()
-                .filter(|b| b.0 != a.0)
-                .map(|b| change(&[*a, *b])),
-        );
+        sets.extend(changes[n + 1..].iter().filter(|b| b.0 != a.0).map(|b| change(&[*a, *b])));
         if sets.len() >= MAX_COMBINATIONS {
             break;
         }

@@ -1,8 +1,13 @@
 //! What must be rendered before a module can run: the maps that its shadow nodes demand, as chains of fixed passes.
 //!
-//! A plan names no shadow method. Two maps are the same map when light and passes are equal, also across modules. (interface)
+//! A plan names no shadow method. Two maps are the same map when light and passes are equal, also across modules.
+
+mod build;
 
 use std::collections::BTreeMap;
+
+pub use crate::node::PassKind;
+pub use build::plan;
 
 /// Everything that a module needs besides its own bindings.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -65,17 +70,4 @@ pub struct Pass {
     pub targets: Vec<String>,
     /// Clear value per channel.
     pub clear: Vec<f64>,
-}
-
-/// How a pass runs.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum PassKind {
-    /// Draws the casters from the light. Group 0 binding 0: `LightSpace`; group 1 binding 0: the object block; vertex
-    /// location 0: object-space position. A colour target gets a depth buffer beside it.
-    Geometry,
-    /// A full-screen triangle that reads group 0 binding 0 (`texture_2d<f32>`) and writes a texture of the same size
-    /// and format.
-    Image,
-    /// As an image pass, but from each mip level of the same texture to the next.
-    Mip,
 }

@@ -34,37 +34,16 @@ pub const MAX_ERRORS: usize = 50;
 
 /// What each code of this module means, for `shadetree explain`.
 pub const CODES: &[(&str, &str)] = &[
-    (
-        "ST0001",
-        "The text is not RON: a value, comma, colon or bracket is missing or out of place.",
-    ),
-    (
-        "ST0002",
-        "A string, character or block comment is not closed.",
-    ),
-    (
-        "ST0003",
-        "A string or character holds an escape that RON does not have.",
-    ),
+    ("ST0001", "The text is not RON: a value, comma, colon or bracket is missing or out of place."),
+    ("ST0002", "A string, character or block comment is not closed."),
+    ("ST0003", "A string or character holds an escape that RON does not have."),
     ("ST0004", "Values are nested more deeply than 64 levels."),
-    (
-        "ST0005",
-        "The file is larger than 64 MiB or holds more than 1,000,000 values.",
-    ),
-    (
-        "ST0006",
-        "A struct names the same field twice, or a map the same key twice.",
-    ),
+    ("ST0005", "The file is larger than 64 MiB or holds more than 1,000,000 values."),
+    ("ST0006", "A struct names the same field twice, or a map the same key twice."),
     ("ST0007", "The file goes on after its one value ended."),
     ("ST0008", "A value has another type than is needed here."),
-    (
-        "ST0009",
-        "A number cannot be read, or is NaN or infinite where a finite number is needed.",
-    ),
-    (
-        "ST0010",
-        "A field is not known here. It is kept when the file is saved, but has no effect.",
-    ),
+    ("ST0009", "A number cannot be read, or is NaN or infinite where a finite number is needed."),
+    ("ST0010", "A field is not known here. It is kept when the file is saved, but has no effect."),
     ("ST0011", "A field that must be given is missing."),
     ("ST0012", "The file has too many mistakes to list them all."),
 ];

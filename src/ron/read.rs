@@ -48,18 +48,8 @@ pub(super) struct Reader<'a> {
 /// Reads a text. With mistakes, the tree is what could be made out around them; without a tree, nothing could.
 pub fn read(source: &Arc<SourceText>) -> (Option<Document>, Vec<Diagnostic>) {
     if source.text.len() > MAX_BYTES {
-        let message = format!(
-            "the file has {} bytes; at most {MAX_BYTES} are read",
-            source.text.len()
-        );
-        return (
-            None,
-            vec![Diagnostic::error(
-                "ST0005",
-                message,
-                Place::file(&source.name),
-            )],
-        );
+        let message = format!("the file has {} bytes; at most {MAX_BYTES} are read", source.text.len());
+        return (None, vec![Diagnostic::error("ST0005", message, Place::file(&source.name))]);
     }
     let mut reader = Reader {
         source,
@@ -73,11 +63,7 @@ pub fn read(source: &Arc<SourceText>) -> (Option<Document>, Vec<Diagnostic>) {
     reader.eat("\u{feff}");
     let read = reader.document();
     let document = match read {
-        Ok((root, extensions)) => Some(Document {
-            root,
-            comments: reader.comments,
-            extensions,
-        }),
+        Ok((root, extensions)) => Some(Document { root, comments: reader.comments, extensions }),
         Err(mistake) => {
             // Fatal mistakes must be told even when the list is full.
             reader.diagnostics.truncate(MAX_ERRORS);
@@ -89,22 +75,13 @@ pub fn read(source: &Arc<SourceText>) -> (Option<Document>, Vec<Diagnostic>) {
 }
 
 fn diagnose(source: &Arc<SourceText>, mistake: Mistake) -> Diagnostic {
-    Diagnostic::error(
-        mistake.code,
-        mistake.message,
-        Place::span(Span::new(source, mistake.at)),
-    )
+    Diagnostic::error(mistake.code, mistake.message, Place::span(Span::new(source, mistake.at)))
 }
 
 impl Reader<'_> {
     pub(super) fn mistake(&self, code: &'static str, message: impl Into<String>) -> Mistake {
         let length = self.peek().map_or(0, char::len_utf8);
-        Mistake {
-            code,
-            message: message.into(),
-            at: self.at..self.at + length,
-            fatal: false,
-        }
+        Mistake { code, message: message.into(), at: self.at..self.at + length, fatal: false }
     }
 
     /// Whether as many mistakes are known as are told of.
@@ -117,11 +94,7 @@ impl Reader<'_> {
             n if n < MAX_ERRORS => self.diagnostics.push(diagnose(self.source, mistake)),
             MAX_ERRORS => {
                 let message = format!("more than {MAX_ERRORS} mistakes; the rest are not listed");
-                self.diagnostics.push(Diagnostic::error(
-                    "ST0012",
-                    message,
-                    Place::file(&self.source.name),
-                ));
+                self.diagnostics.push(Diagnostic::error("ST0012", message, Place::file(&self.source.name)));
             }
             _ => {}
         }
@@ -138,10 +111,7 @@ impl Reader<'_> {
         let root = self.value()?;
         self.blank()?;
         if self.at < self.text.len() {
-            let mistake = self.mistake(
-                "ST0007",
-                "the file holds one value, and that has ended before here",
-            );
+            let mistake = self.mistake("ST0007", "the file holds one value, and that has ended before here");
             self.report(mistake);
         }
         Ok((root, extensions))
@@ -167,9 +137,7 @@ impl Reader<'_> {
         for mark in [")", "]"] {
             self.blank()?;
             if !self.eat(mark) {
-                return Err(
-                    self.mistake("ST0001", format!("expected `{mark}` to close the header"))
-                );
+                return Err(self.mistake("ST0001", format!("expected `{mark}` to close the header")));
             }
         }
         Ok(words)
@@ -180,26 +148,15 @@ impl Reader<'_> {
         let start = self.at;
         self.values += 1;
         if self.values > MAX_VALUES {
-            return Err(fatal(
-                "ST0005",
-                format!("the file holds more than {MAX_VALUES} values"),
-                start..start + 1,
-            ));
+            return Err(fatal("ST0005", format!("the file holds more than {MAX_VALUES} values"), start..start + 1));
         }
         if self.depth >= MAX_DEPTH {
-            return Err(fatal(
-                "ST0004",
-                format!("nested more than {MAX_DEPTH} levels deep"),
-                start..start + 1,
-            ));
+            return Err(fatal("ST0004", format!("nested more than {MAX_DEPTH} levels deep"), start..start + 1));
         }
         self.depth += 1;
         let value = self.tree();
         self.depth -= 1;
-        Ok(Node {
-            value: value?,
-            span: start..self.at,
-        })
+        Ok(Node { value: value?, span: start..self.at })
     }
 
     fn tree(&mut self) -> Result<Tree, Mistake> {
@@ -283,11 +240,7 @@ impl Reader<'_> {
             reader.colon()?;
             let value = reader.value()?;
             if names.insert(name.clone()) {
-                fields.push(Field {
-                    name,
-                    name_span,
-                    value,
-                });
+                fields.push(Field { name, name_span, value });
             } else {
                 reader.twice(&name, name_span);
             }

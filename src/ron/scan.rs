@@ -7,12 +7,7 @@ use super::{MAX_VALUES, Tree};
 
 /// A mistake that leaves nothing to go on with: the rest of the text was swallowed, or a limit is passed.
 pub(super) fn fatal(code: &'static str, message: impl Into<String>, at: Range<usize>) -> Mistake {
-    Mistake {
-        code,
-        message: message.into(),
-        at,
-        fatal: true,
-    }
+    Mistake { code, message: message.into(), at, fatal: true }
 }
 
 impl Reader<'_> {
@@ -41,16 +36,9 @@ impl Reader<'_> {
             let Some(block) = self.comment()? else {
                 return Ok(());
             };
-            self.comments.push(Comment {
-                span: start..self.at,
-                block,
-            });
+            self.comments.push(Comment { span: start..self.at, block });
             if self.comments.len() > MAX_VALUES {
-                return Err(fatal(
-                    "ST0005",
-                    format!("more than {MAX_VALUES} comments"),
-                    start..self.at,
-                ));
+                return Err(fatal("ST0005", format!("more than {MAX_VALUES} comments"), start..self.at));
             }
         }
     }
@@ -69,11 +57,7 @@ impl Reader<'_> {
         while open > 0 {
             let Some(next) = self.rest().find(['*', '/']) else {
                 self.at = self.text.len();
-                return Err(fatal(
-                    "ST0002",
-                    "this block comment is not closed by `*/`",
-                    start..start + 2,
-                ));
+                return Err(fatal("ST0002", "this block comment is not closed by `*/`", start..start + 2));
             };
             self.at += next;
             if self.eat("*/") {
@@ -91,8 +75,7 @@ impl Reader<'_> {
     pub(super) fn identifier(&mut self) -> Option<String> {
         let raw = self.rest().starts_with("r#") && !self.rest()[2..].starts_with(['"', '#']);
         let body = if raw { &self.rest()[2..] } else { self.rest() };
-        let inside =
-            |c: char| c.is_alphanumeric() || c == '_' || (raw && matches!(c, '.' | '+' | '-'));
+        let inside = |c: char| c.is_alphanumeric() || c == '_' || (raw && matches!(c, '.' | '+' | '-'));
         let end = body.find(|c| !inside(c)).unwrap_or(body.len());
         if end == 0 || (!raw && body.starts_with(char::is_numeric)) {
             return None;
@@ -142,11 +125,7 @@ impl Reader<'_> {
         let close = format!("\"{}", "#".repeat(hashes));
         let Some(end) = body.find(&close) else {
             self.at = self.text.len();
-            return Err(fatal(
-                "ST0002",
-                format!("this raw string is not closed by `{close}`"),
-                start..start + 1,
-            ));
+            return Err(fatal("ST0002", format!("this raw string is not closed by `{close}`"), start..start + 1));
         };
         let text = body[..end].to_string();
         self.at += 1 + hashes + 1 + end + close.len();
@@ -161,11 +140,7 @@ impl Reader<'_> {
         loop {
             let Some(plain) = self.rest().find(['"', '\\']) else {
                 self.at = self.text.len();
-                return Err(fatal(
-                    "ST0002",
-                    "this string is not closed by `\"`",
-                    start..start + 1,
-                ));
+                return Err(fatal("ST0002", "this string is not closed by `\"`", start..start + 1));
             };
             text.push_str(&self.text[self.at..self.at + plain]);
             self.at += plain;
@@ -196,10 +171,7 @@ impl Reader<'_> {
         if self.eat("'") {
             return Ok(Tree::Char(c));
         }
-        Err(Mistake {
-            at: start..self.at,
-            ..self.mistake("ST0002", "this character is not closed by `'`")
-        })
+        Err(Mistake { at: start..self.at, ..self.mistake("ST0002", "this character is not closed by `'`") })
     }
 
     /// One escape; the cursor stands on its backslash. Reports an escape that is none, and gives nothing for it.

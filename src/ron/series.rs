@@ -9,12 +9,7 @@ use super::scan::fatal;
 impl Reader<'_> {
     pub(super) fn twice(&mut self, name: &str, at: Range<usize>) {
         let message = format!("`{name}` is given twice here");
-        self.report(Mistake {
-            code: "ST0006",
-            message,
-            at,
-            fatal: false,
-        });
+        self.report(Mistake { code: "ST0006", message, at, fatal: false });
     }
 
     pub(super) fn colon(&mut self) -> Result<(), Mistake> {
@@ -36,11 +31,7 @@ impl Reader<'_> {
             self.blank()?;
             match self.peek() {
                 None => {
-                    return Err(fatal(
-                        "ST0001",
-                        format!("no `{close}` closes this"),
-                        open..self.at.min(open + 1),
-                    ));
+                    return Err(fatal("ST0001", format!("no `{close}` closes this"), open..self.at.min(open + 1)));
                 }
                 Some(c) if c == close => {
                     self.at += c.len_utf8();
@@ -72,9 +63,7 @@ impl Reader<'_> {
                     self.report(mistake);
                     if self.is_full() {
                         // A text with nothing but mistakes is not worth reading to its end.
-                        let message = format!(
-                            "{MAX_ERRORS} mistakes so far; the rest of the file was not read"
-                        );
+                        let message = format!("{MAX_ERRORS} mistakes so far; the rest of the file was not read");
                         return Err(fatal("ST0012", message, self.at..self.at));
                     }
                     self.recover()?;

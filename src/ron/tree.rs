@@ -121,8 +121,7 @@ impl Node {
         let Tree::Number(written) = &self.value else {
             return Err(self.expected(source, "a number"));
         };
-        let wrong =
-            |message: String| Box::new(Diagnostic::error("ST0009", message, self.place(source)));
+        let wrong = |message: String| Box::new(Diagnostic::error("ST0009", message, self.place(source)));
         match parse_number(written) {
             Some(x) if x.is_finite() => Ok(x),
             Some(_) => Err(wrong(format!("`{written}` is not a finite number")).help_finite()),
@@ -135,15 +134,8 @@ impl Node {
         let x = self.as_f64(source)?;
         // 2^53: beyond it neighbouring whole numbers read as the same f64.
         if x.fract() != 0.0 || x < 0.0 || x > max.min(1 << 53) as f64 {
-            let message = format!(
-                "expected a whole number from 0 to {max}, found {}",
-                self.value.describe()
-            );
-            return Err(Box::new(Diagnostic::error(
-                "ST0009",
-                message,
-                self.place(source),
-            )));
+            let message = format!("expected a whole number from 0 to {max}, found {}", self.value.describe());
+            return Err(Box::new(Diagnostic::error("ST0009", message, self.place(source))));
         }
         Ok(x as u64)
     }
@@ -162,9 +154,7 @@ impl Node {
     /// As exactly `N` finite numbers.
     pub fn as_array<const N: usize>(&self, source: &Arc<SourceText>) -> Reading<[f64; N]> {
         let numbers = self.as_numbers(source)?;
-        numbers
-            .try_into()
-            .map_err(|_| self.expected(source, &format!("{N} numbers `(...)`")))
+        numbers.try_into().map_err(|_| self.expected(source, &format!("{N} numbers `(...)`")))
     }
 
     /// As a list.
@@ -217,9 +207,7 @@ pub(crate) fn parse_number(written: &str) -> Option<f64> {
     }
     for (prefix, radix) in [("0x", 16), ("0o", 8), ("0b", 2)] {
         if let Some(rest) = bare.strip_prefix(prefix) {
-            return u64::from_str_radix(rest, radix)
-                .ok()
-                .map(|n| sign * n as f64);
+            return u64::from_str_radix(rest, radix).ok().map(|n| sign * n as f64);
         }
     }
     let plain = |b: u8| b.is_ascii_digit() || matches!(b, b'.' | b'e' | b'E' | b'+' | b'-');

@@ -11,18 +11,12 @@ pub fn number(x: f64) -> String {
     }
     let plain = format!("{x}");
     let exponent = format!("{x:e}");
-    if exponent.len() < plain.len() && plain.len() > 12 {
-        exponent
-    } else {
-        plain
-    }
+    if exponent.len() < plain.len() && plain.len() > 12 { exponent } else { plain }
 }
 
 /// A text in quotes: raw where that saves escapes and every character can be seen, escaped otherwise.
 pub fn text(text: &str) -> String {
-    let hidden = |c: char| {
-        (c.is_control() && !matches!(c, '\n' | '\t')) || matches!(c, '\u{2028}' | '\u{2029}')
-    };
+    let hidden = |c: char| (c.is_control() && !matches!(c, '\n' | '\t')) || matches!(c, '\u{2028}' | '\u{2029}');
     if text.contains(['\n', '"', '\\']) && !text.contains(hidden) {
         let mut hashes = 1;
         let mut run = None;
@@ -109,13 +103,7 @@ fn write(out: &mut String, node: &Node) {
     }
 }
 
-fn series<T>(
-    out: &mut String,
-    open: &str,
-    items: &[T],
-    close: &str,
-    mut one: impl FnMut(&mut String, &T),
-) {
+fn series<T>(out: &mut String, open: &str, items: &[T], close: &str, mut one: impl FnMut(&mut String, &T)) {
     out.push_str(open);
     for (index, item) in items.iter().enumerate() {
         if index > 0 {
@@ -128,9 +116,5 @@ fn series<T>(
 
 /// A name of a field, struct or variant, marked as raw where it needs to be.
 pub fn identifier(name: &str) -> String {
-    if name.contains(['.', '+', '-']) || name.starts_with(char::is_numeric) {
-        format!("r#{name}")
-    } else {
-        name.into()
-    }
+    if name.contains(['.', '+', '-']) || name.starts_with(char::is_numeric) { format!("r#{name}") } else { name.into() }
 }

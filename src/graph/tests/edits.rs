@@ -37,10 +37,7 @@ fn a_removed_node_comes_back_with_all_that_hung_on_it() {
 
 fn clean_but_for_unknown(text: &str) {
     let (_, found) = read(&SourceText::new("t.ron", text));
-    assert!(
-        found.iter().all(|d| d.code == "ST0010"),
-        "{text}\n{found:?}"
-    );
+    assert!(found.iter().all(|d| d.code == "ST0010"), "{text}\n{found:?}");
 }
 
 #[test]
@@ -48,41 +45,17 @@ fn impossible_edits_say_why_and_change_nothing() {
     let link = |text: &str| Edit::Link(Box::new(Link::parse(text).unwrap()));
     let a = || "a".to_string();
     for (edit, message) in [
-        (
-            link("c -> a"),
-            "the link would close a cycle: a -> b -> c -> a",
-        ),
+        (link("c -> a"), "the link would close a cycle: a -> b -> c -> a"),
         (link("a -> b"), "there is already a link `a -> b`"),
         (link("a -> a.x"), "a link cannot lead from `a` to itself"),
         (link("a -> z"), "there is no node `z`"),
-        (
-            Edit::AddNode(a(), Box::default()),
-            "there is already a node `a`",
-        ),
-        (
-            Edit::RenameNode(a(), "b".into()),
-            "there is already a node `b`",
-        ),
-        (
-            Edit::RenameNode(a(), "x/y".into()),
-            "`x/y` cannot name a node because of the `/`",
-        ),
-        (
-            Edit::Move(a(), Some([f64::NAN, 0.0])),
-            "`a` must be a finite number",
-        ),
-        (
-            Edit::Unlink(End::node("a"), End::node("c")),
-            "there is no link `a -> c`",
-        ),
-        (
-            Edit::SetOutput(Some(End::node("z"))),
-            "there is no node `z`",
-        ),
-        (
-            Edit::Batch(vec![Edit::RemoveNode(a()), link("b -> c"), link("b -> a")]),
-            "there is no node `a`",
-        ),
+        (Edit::AddNode(a(), Box::default()), "there is already a node `a`"),
+        (Edit::RenameNode(a(), "b".into()), "there is already a node `b`"),
+        (Edit::RenameNode(a(), "x/y".into()), "`x/y` cannot name a node because of the `/`"),
+        (Edit::Move(a(), Some([f64::NAN, 0.0])), "`a` must be a finite number"),
+        (Edit::Unlink(End::node("a"), End::node("c")), "there is no link `a -> c`"),
+        (Edit::SetOutput(Some(End::node("z"))), "there is no node `z`"),
+        (Edit::Batch(vec![Edit::RemoveNode(a()), link("b -> c"), link("b -> a")]), "there is no node `a`"),
     ] {
         let mut graph = start();
         let before = write(&graph);
@@ -101,35 +74,21 @@ fn any_edit() -> impl Strategy<Value = Edit> {
     ];
     let position = prop::option::of([-1e4..1e4, -1e4..1e4]);
     let one = prop_oneof![
-        (name(), "[a-z]{1,3}").prop_map(|(name, kind)| Edit::AddNode(
-            name,
-            Box::new(Node {
-                kind,
-                ..Node::default()
-            })
-        )),
+        (name(), "[a-z]{1,3}").prop_map(|(name, kind)| Edit::AddNode(name, Box::new(Node { kind, ..Node::default() }))),
         name().prop_map(Edit::RemoveNode),
         (name(), name()).prop_map(|(from, to)| Edit::RenameNode(from, to)),
-        (name(), "[a-z]{1,3}").prop_map(|(node, kind)| Edit::SetKind {
+        (name(), "[a-z]{1,3}").prop_map(|(node, kind)| Edit::SetKind { node, kind, graph: None }),
+        (name(), "[xyz]", prop::option::of(value)).prop_map(|(node, param, value)| Edit::SetParam {
             node,
-            kind,
-            graph: None
+            param,
+            value
         }),
-        (name(), "[xyz]", prop::option::of(value))
-            .prop_map(|(node, param, value)| Edit::SetParam { node, param, value }),
-        (name(), "[xyz]", prop::option::of("[a-z]{0,3}")).prop_map(|(node, option, value)| {
-            Edit::SetOption {
-                node,
-                option,
-                value,
-            }
-        }),
-        (name(), prop::option::of(any::<String>()))
-            .prop_map(|(node, wgsl)| Edit::SetWgsl(node, wgsl)),
+        (name(), "[xyz]", prop::option::of("[a-z]{0,3}"))
+            .prop_map(|(node, option, value)| { Edit::SetOption { node, option, value } }),
+        (name(), prop::option::of(any::<String>())).prop_map(|(node, wgsl)| Edit::SetWgsl(node, wgsl)),
         (name(), any::<bool>()).prop_map(|(node, muted)| Edit::SetMuted(node, muted)),
         (name(), any::<String>()).prop_map(|(node, note)| Edit::SetNodeNote(node, note)),
-        (end(), end(), any::<String>())
-            .prop_map(|(from, to, note)| Edit::SetLinkNote(from, to, note)),
+        (end(), end(), any::<String>()).prop_map(|(from, to, note)| Edit::SetLinkNote(from, to, note)),
         any::<String>().prop_map(Edit::SetNote),
         any::<String>().prop_map(Edit::SetName),
         (end(), end()).prop_map(|(from, to)| Edit::Link(Box::new(Link::new(from, to)))),
@@ -137,16 +96,11 @@ fn any_edit() -> impl Strategy<Value = Edit> {
         (name(), position).prop_map(|(node, position)| Edit::Move(node, position)),
         prop::option::of(end()).prop_map(Edit::SetOutput),
         end().prop_map(|end| {
-            let expose = Expose {
-                inputs: [("i".to_string(), vec![end])].into(),
-                ..Expose::default()
-            };
+            let expose = Expose { inputs: [("i".to_string(), vec![end])].into(), ..Expose::default() };
             Edit::SetExpose(Box::new(expose))
         }),
     ];
-    one.prop_recursive(2, 8, 4, |inner| {
-        prop::collection::vec(inner, 0..4).prop_map(Edit::Batch)
-    })
+    one.prop_recursive(2, 8, 4, |inner| prop::collection::vec(inner, 0..4).prop_map(Edit::Batch))
 }
 
 proptest! {

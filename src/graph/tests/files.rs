@@ -68,29 +68,14 @@ fn places_point_at_what_was_written() {
     };
     assert_eq!(line(graph.place("glass")), (7, 9));
     assert_eq!(written(graph.kind_place("stone")), "\"lib/stone.ron\"");
-    assert_eq!(
-        written(graph.param_place("glass", "tint")),
-        "(0.9, 1, 0.95)"
-    );
+    assert_eq!(written(graph.param_place("glass", "tint")), "(0.9, 1, 0.95)");
     assert_eq!(written(graph.option_place("bump", "octaves")), "\"3\"");
-    assert_eq!(
-        written(graph.link_place(&graph.links[0])),
-        "\"bump -> glass\""
-    );
-    assert_eq!(
-        graph.param_place("glass", "absent").port.as_deref(),
-        Some("absent")
-    );
+    assert_eq!(written(graph.link_place(&graph.links[0])), "\"bump -> glass\"");
+    assert_eq!(graph.param_place("glass", "absent").port.as_deref(), Some("absent"));
     let wgsl = graph.wgsl_span("stripe").unwrap();
-    assert_eq!(
-        Some(&wgsl.source.text[wgsl.range]),
-        graph.nodes["stripe"].wgsl.as_deref()
-    );
+    assert_eq!(Some(&wgsl.source.text[wgsl.range]), graph.nodes["stripe"].wgsl.as_deref());
     let place = graph.place("nobody");
-    assert_eq!(
-        (place.file.as_deref(), place.node.as_deref()),
-        (Some("t.ron"), Some("nobody"))
-    );
+    assert_eq!((place.file.as_deref(), place.node.as_deref()), (Some("t.ron"), Some("nobody")));
 }
 
 #[test]
@@ -133,12 +118,7 @@ fn every_mistake_is_told_in_one_reading() {
             "ST0009 13:43 `NaN` is not a finite number",
         ]
     );
-    let help = |code: &str| {
-        found
-            .iter()
-            .find(|d| d.code == code && d.help.is_some())
-            .and_then(|d| d.help.clone())
-    };
+    let help = |code: &str| found.iter().find(|d| d.code == code && d.help.is_some()).and_then(|d| d.help.clone());
     assert_eq!(help("ST0010").as_deref(), Some("did you mean `kind`?"));
     assert_eq!(help("ST0056").as_deref(), Some("did you mean `glass`?"));
 }
@@ -151,18 +131,9 @@ fn other_roots_and_versions_are_refused() {
     };
     assert_eq!(
         told_of("Scene(version: 1)"),
-        (
-            false,
-            vec!["ST0050 1:1 expected `Graph(...)`, found `Scene(...)`".into()]
-        )
+        (false, vec!["ST0050 1:1 expected `Graph(...)`, found `Scene(...)`".into()])
     );
-    assert_eq!(
-        told_of("[1]"),
-        (
-            false,
-            vec!["ST0050 1:1 expected `Graph(...)`, found a list `[...]`".into()]
-        )
-    );
+    assert_eq!(told_of("[1]"), (false, vec!["ST0050 1:1 expected `Graph(...)`, found a list `[...]`".into()]));
     let missing = "ST0051 1:1 the graph does not say which version of the format it is written in";
     assert_eq!(told_of("Graph(nodes: {})"), (true, vec![missing.into()]));
     assert_eq!(told_of("Graph()"), (true, vec![missing.into()]));
@@ -177,43 +148,22 @@ fn cycles_are_named() {
     let text = r#"Graph(version: 1, nodes: {"a": (kind: "k"), "b": (kind: "k"), "c": (kind: "k"), "s": (graph: "s.ron")},
     links: ["a -> b", "b.x -> c.y", "c -> a", "a -> s.in", "s.out -> a"])"#;
     let (_, found) = read(&SourceText::new("t.ron", text));
-    assert_eq!(
-        told(&found),
-        ["ST0059 2:37 the links form a cycle: a -> b -> c -> a"]
-    );
+    assert_eq!(told(&found), ["ST0059 2:37 the links form a cycle: a -> b -> c -> a"]);
 }
 
 #[test]
 fn large_graphs_are_refused_and_long_chains_are_not() {
-    let nodes = |n: usize| {
-        (0..n)
-            .map(|i| format!("\"n{i}\": (kind: \"k\"),\n"))
-            .collect::<String>()
-    };
-    let (_, found) = read(&SourceText::new(
-        "t.ron",
-        format!("Graph(version: 1, nodes: {{{}}})", nodes(MAX_NODES + 1)),
-    ));
+    let nodes = |n: usize| (0..n).map(|i| format!("\"n{i}\": (kind: \"k\"),\n")).collect::<String>();
+    let (_, found) = read(&SourceText::new("t.ron", format!("Graph(version: 1, nodes: {{{}}})", nodes(MAX_NODES + 1))));
     assert_eq!(found.iter().map(|d| d.code).collect::<Vec<_>>(), ["ST0060"]);
-    let links: String = (1..MAX_NODES)
-        .map(|i| format!("\"n{} -> n{i}\",\n", i - 1))
-        .collect();
-    let graph = clean(&format!(
-        "Graph(version: 1, nodes: {{{}}}, links: [{links}])",
-        nodes(MAX_NODES)
-    ));
+    let links: String = (1..MAX_NODES).map(|i| format!("\"n{} -> n{i}\",\n", i - 1)).collect();
+    let graph = clean(&format!("Graph(version: 1, nodes: {{{}}}, links: [{links}])", nodes(MAX_NODES)));
     assert_eq!(graph.links.len(), MAX_NODES - 1);
     let links = "\"a -> b\",".repeat(MAX_LINKS + 1);
-    let (_, found) = read(&SourceText::new(
-        "t.ron",
-        format!("Graph(version: 1, links: [{links}])"),
-    ));
+    let (_, found) = read(&SourceText::new("t.ron", format!("Graph(version: 1, links: [{links}])")));
     assert_eq!(found.iter().map(|d| d.code).collect::<Vec<_>>(), ["ST0060"]);
     let links: String = (0..5000).map(|i| format!("\"a{i} -> b\",")).collect();
-    let (_, found) = read(&SourceText::new(
-        "t.ron",
-        format!("Graph(version: 1, links: [{links}])"),
-    ));
+    let (_, found) = read(&SourceText::new("t.ron", format!("Graph(version: 1, links: [{links}])")));
     assert_eq!(found.last().map(|d| d.code), Some("ST0066"));
 }
 
@@ -240,10 +190,7 @@ Graph(
 "#;
     let graph = clean(text);
     assert_eq!(graph.note, "Before all.\nthe version\nAfter the last node.");
-    assert_eq!(
-        graph.nodes["a"].note,
-        "Noted.\nAbout a.\nMore\nof it.\nBehind a."
-    );
+    assert_eq!(graph.nodes["a"].note, "Noted.\nAbout a.\nMore\nof it.\nBehind a.");
     assert_eq!(graph.nodes["b"].note, "Inside b.");
     assert_eq!(graph.links[0].note, "Why.");
     let written = write(&graph);
@@ -254,33 +201,17 @@ Graph(
 fn version_0_is_migrated() {
     let graph = clean(include_str!("version_0.ron"));
     assert_eq!(write(&graph), include_str!("version_0.expected.ron"));
-    assert_eq!(
-        graph
-            .link_place(&graph.links[0])
-            .span
-            .unwrap()
-            .line_column()
-            .0,
-        11
-    );
+    assert_eq!(graph.link_place(&graph.links[0]).span.unwrap().line_column().0, 11);
 }
 
 #[test]
 fn moving_a_node_changes_only_the_layout() {
-    let mut graph =
-        clean("Graph(version: 1, nodes: {\"a\": (kind: \"k\")}, layout: {\"a\": (0, 0)})");
+    let mut graph = clean("Graph(version: 1, nodes: {\"a\": (kind: \"k\")}, layout: {\"a\": (0, 0)})");
     let before = write(&graph);
     apply(&mut graph, Edit::Move("a".into(), Some([5.5, 1e-7]))).unwrap();
     let after = write(&graph);
-    let changed: Vec<_> = before
-        .lines()
-        .zip(after.lines())
-        .filter(|(a, b)| a != b)
-        .collect();
-    assert_eq!(
-        changed,
-        [("        \"a\": (0, 0),", "        \"a\": (5.5, 0.0000001),")]
-    );
+    let changed: Vec<_> = before.lines().zip(after.lines()).filter(|(a, b)| a != b).collect();
+    assert_eq!(changed, [("        \"a\": (0, 0),", "        \"a\": (5.5, 0.0000001),")]);
 }
 
 proptest! {

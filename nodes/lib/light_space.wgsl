@@ -1,0 +1,100 @@
+//! The space that a light's maps are made in: where a point lies in it, and how a receiving plane runs through it.
+
+/// One light's view of the scene, filled by the host; 96 bytes. Lengths are metres.
+struct LightSpace {
+    /// Rigid: the light at the origin, looking along +z, +y up.
+    world_to_light: mat4x4f,
+    /// x, y: focal factors, ndc = projection.xy * light.xy / (perspective ? light.z : 1). z: 1 perspective, 0 parallel.
+    projection: vec4f,
+    /// x: near, y: far, z: 1 / (far - near).
+    depth: vec4f,
+}
+
+/// The plane of the surface that is shaded, ready to be met by the ray through any other place on the map.
+struct ReceiverPlane {
+    /// Map coordinate of the shaded point.
+    uv: vec2f,
+    /// Distance of the shaded point along the light's axis, metres.
+    distance: f32,
+    /// Change over the whole map: of distance in metres (parallel) or of 1 / distance relative to here (perspective).
+    slope: vec2f,
+}
+
+/// A plane seen by the light at a smaller cosine than this (89.1 degrees) is treated as if seen at this cosine. Up to
+/// there the plane is followed exactly; beyond, next to no light arrives that could show the difference.
+const MIN_RECEIVER_COSINE: f32 = 0.015625;
+
+/// A world point in light coordinates, metres.
+fn light_position(space: LightSpace, point: vec3f) -> vec3f {
+    return (space.world_to_light * vec4f(point, 1.0)).xyz;
+}
+
+/// 0 at the near plane, 1 at the far plane, linear in metres; not clamped. `distance` is light coordinate z.
+fn light_linear_depth(space: LightSpace, distance: f32) -> f32 {
+    return (distance - space.depth.x) * space.depth.z;
+}
+
+/// What ndc is proportional to: the direction of the ray (perspective) or the offset from the axis in metres (parallel).
+fn light_ray(space: LightSpace, position: vec3f) -> vec2f {
+    return position.xy / select(1.0, max(position.z, 1e-6), space.projection.z > 0.5);
+}
+
+/// Map coordinate, (0, 0) at the upper left corner.
+fn light_map_uv(space: LightSpace, position: vec3f) -> vec2f {
+    return light_ray(space, position) * space.projection.xy * vec2f(0.5, -0.5) + 0.5;
+}
+
+/// Clip position for drawing a map. Clip depth only clips and orders; what is stored is `light_linear_depth`.
+fn light_clip_position(space: LightSpace, position: vec3f) -> vec4f {
+    let xy = position.xy * space.projection.xy;
+    let perspective_z = space.depth.y * space.depth.z * (position.z - space.depth.x);
+    let parallel = vec4f(xy, light_linear_depth(space, position.z), 1.0);
+    return select(parallel, vec4f(xy, perspective_z, position.z), space.projection.z > 0.5);
+}
+
+/// Whether the map knows nothing about a point: beside the map, or in front of its near plane.
+fn outside_light_map(space: LightSpace, position: vec3f, uv: vec2f) -> bool {
+    return position.z < space.depth.x || any(uv < vec2f(0.0)) || any(uv > vec2f(1.0));
+}
+
+/// The plane through a point (light coordinates) with a geometric normal (world; any length, either side).
+fn receiver_plane(space: LightSpace, position: vec3f, normal: vec3f) -> ReceiverPlane {
+    let perspective = space.projection.z > 0.5;
+    let n = (space.world_to_light * vec4f(normal, 0.0)).xyz;
+    // The ray through the point, scaled to one metre along the axis, so that n.ray = n.position / position.z.
+    let ray = vec3f(select(vec2f(0.0), light_ray(space, position), perspective), 1.0);
+    let facing = dot(n, ray);
+    let least = MIN_RECEIVER_COSINE * length(n) * length(ray);
+    // A normal of length zero says nothing about the plane: it counts as facing the light.
+    let bounded = max(max(abs(facing), least), 1e-30) * select(1.0, -1.0, facing < 0.0);
+    let ray_per_uv = vec2f(2.0, -2.0) / space.projection.xy;
+    return ReceiverPlane(light_map_uv(space, position), position.z, n.xy * ray_per_uv / bounded);
+}
+
+/// Linear depth, clamped to [0, 1], where the light's ray through `uv` meets the plane. Exact for both projections: with
+/// plane n.p = n0, a perspective ray (a, b, 1) z meets it at z = n0 / (n.x a + n.y b + n.z), a parallel one at
+/// z = (n0 - n.x a - n.y b) / n.z; both are written relative to the shaded point, where rounding is least.
+fn receiver_depth(space: LightSpace, plane: ReceiverPlane, uv: vec2f) -> f32 {
+    let change = dot(plane.slope, uv - plane.uv);
+    let parallel = plane.distance - change;
+    // Rays that run away along the plane are held within four times the distance.
+    let perspective = plane.distance / max(1.0 + change, 0.25);
+    return saturate(light_linear_depth(space, select(parallel, perspective, space.projection.z > 0.5)));
+}
+
+/// Size of the change of linear depth per unit of `uv` at the shaded point: |d depth/du|, |d depth/dv|.
+fn receiver_slope(space: LightSpace, plane: ReceiverPlane) -> vec2f {
+    return abs(plane.slope) * select(1.0, plane.distance, space.projection.z > 0.5) * space.depth.z;
+}
+
+/// Depth that rounding may shift a stored texel by, given the slope per texel. Rasterisers place vertices on a grid of
+/// 1/256 texel, so a stored plane may lie off by that part of its slope; float32 adds a few parts in 10^7.
+fn receiver_rounding(slope_per_texel: vec2f) -> f32 {
+    return (slope_per_texel.x + slope_per_texel.y) * (1.0 / 64.0) + 1e-6;
+}
+
+/// Normal of the surface as it is drawn, from neighbouring pixels; not normalised, either side. Shading normals do not
+/// describe the plane that the map holds. Call it where all pixels come along.
+fn geometric_normal(point: vec3f) -> vec3f {
+    return cross(dpdx(point), dpdy(point));
+}

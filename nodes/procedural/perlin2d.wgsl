@@ -1,0 +1,22 @@
+//! label: Perlin Noise 2D
+//! category: procedural
+//! synonyms: gradient noise, clouds, bumps
+//! use: perlin
+//! Smooth random bumps of one size on a surface's texture coordinates: Perlin's improved noise (Perlin 2002).
+//! option range: unit | signed = unit - Values from 0 to 1 around 0.5, or from -1 to 1 around 0.
+
+/// texcoord (texcoord; = @texcoord): Where to look the noise up.
+/// scale (scalar; = 8): Features per unit of the texture coordinate.
+//#if range == unit
+/// -> value (scalar): Noise in 0..1; mean 0.5, standard deviation 0.15.
+//#else
+/// -> value (scalar): Noise in -1..1; mean 0, standard deviation 0.30.
+//#end
+fn perlin2d(texcoord: vec2f, scale: f32) -> f32 {
+    let noise = perlin_noise2(texcoord * scale);
+//#if range == unit
+    return clamp(0.5 + 0.5 * noise, 0.0, 1.0);
+//#else
+    return clamp(noise, -1.0, 1.0);
+//#end
+}

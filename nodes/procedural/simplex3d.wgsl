@@ -1,0 +1,23 @@
+//! label: Simplex Noise 3D
+//! category: procedural
+//! synonyms: gradient noise, opensimplex, bumps, solid noise
+//! use: simplex
+//! Smooth random bumps on a tetrahedral lattice, with fewer directional artefacts than Perlin noise
+//! (Perlin 2001, Gustavson 2005).
+//! option range: unit | signed = unit - Values from 0 to 1 around 0.5, or from -1 to 1 around 0.
+
+/// position (point object; = @position_object): Where to look the noise up.
+/// scale (scalar; = 4): Features per metre.
+//#if range == unit
+/// -> value (scalar): Noise in 0..1; mean 0.5, standard deviation 0.20.
+//#else
+/// -> value (scalar): Noise in -1..1; mean 0, standard deviation 0.39.
+//#end
+fn simplex3d(position: vec3f, scale: f32) -> f32 {
+    let noise = simplex_noise3(position * scale);
+//#if range == unit
+    return clamp(0.5 + 0.5 * noise, 0.0, 1.0);
+//#else
+    return clamp(noise, -1.0, 1.0);
+//#end
+}

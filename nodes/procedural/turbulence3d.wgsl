@@ -1,0 +1,31 @@
+//! label: Turbulence 3D
+//! category: procedural
+//! synonyms: billow, folded noise, fractal, smoke
+//! use: fractal, perlin
+//! Billows with sharp creases throughout space: a sum of octaves of the absolute value of Perlin noise (Perlin 1985),
+//! divided by the sum of their amplitudes. Octaves too fine for a pixel fade to their average.
+//! option octaves: 1 | 2 | 3 | 4 | 5 | 6 | 7 | 8 = 5 - How many sizes of detail.
+
+const OCTAVES: i32 = 5;
+
+/// position (point object; = @position_object): Where to look the noise up.
+/// scale (scalar; = 2): Features of the coarsest octave per metre.
+/// lacunarity (scalar; = 2; 1..8): How much finer each octave is than the one before.
+/// gain (scalar; = 0.5; 0..1): How much weaker each octave is than the one before.
+/// -> value (scalar): Turbulence in 0..1; 0 in the creases, mean 0.21.
+fn turbulence3d(position: vec3f, scale: f32, lacunarity: f32, gain: f32) -> f32 {
+    let base = position * scale;
+    let footprint = octave_footprint3(base);
+    var sum = 0.0;
+    var total = 0.0;
+    var amplitude = 1.0;
+    var frequency = 1.0;
+    for (var octave = 0; octave < OCTAVES; octave++) {
+        let noise = abs(perlin_noise3(base * frequency + octave_shift3(octave)));
+        sum += amplitude * mix(PERLIN3_MEAN_ABSOLUTE, noise, detail_left(footprint * frequency));
+        total += amplitude;
+        amplitude *= gain;
+        frequency *= lacunarity;
+    }
+    return clamp(sum / total, 0.0, 1.0);
+}

@@ -1,0 +1,34 @@
+//! label: Hard shadow
+//! category: shadow
+//! synonyms: shadow map, sharp shadow, unfiltered shadow
+//! use: light_space
+//! Shadow by one comparison with the nearest texel of a depth map (Williams 1978): cheap, with stairs at the edges. The comparison is with the receiving plane at that texel's centre, so no bias has to be tuned.
+//! option size: 256 | 512 | 1024 | 2048 | 4096 = 2048 - Texels on a side of the map.
+//! map map: depth(size=$size)
+//! sampler map_sampler: compare=on filter=nearest address=clamp
+
+/// point (point world; = @position_world; hidden): The shaded point.
+/// space (space; hidden): The light's space.
+/// map (map; hidden): Linear depth of the nearest surface.
+/// map_sampler (sampler; hidden): Compares with one texel.
+/// bias (distance; = 0; 0..; in m): Extra distance by which an occluder must be nearer to the light, for surfaces that the plane does not describe.
+/// receives (scalar; = @receives; hidden): 0 where the object takes no shadows.
+/// -> visibility (scalar visibility): 1 lit, 0 in shadow.
+fn hard_shadow(
+    point: vec3f,
+    space: LightSpace,
+    map: texture_depth_2d,
+    map_sampler: sampler_comparison,
+    bias: f32,
+    receives: f32,
+) -> f32 {
+    let normal = geometric_normal(point);
+    let position = light_position(space, point);
+    let plane = receiver_plane(space, position, normal);
+    let size = vec2f(textureDimensions(map));
+    let margin = bias * space.depth.z + receiver_rounding(receiver_slope(space, plane) / size);
+    let center = (floor(plane.uv * size) + 0.5) / size;
+    let depth = receiver_depth(space, plane, center) - margin;
+    let visibility = textureSampleCompareLevel(map, map_sampler, center, depth);
+    return select(visibility, 1.0, receives < 0.5 || outside_light_map(space, position, plane.uv));
+}

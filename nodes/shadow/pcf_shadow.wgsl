@@ -1,0 +1,134 @@
+//! label: PCF shadow
+//! category: shadow
+//! synonyms: percentage closer filtering, soft shadow, filtered shadow
+//! use: light_space, kernel
+//! Shadow by comparing many texels of a depth map and averaging the results (Reeves, Salesin and Cook 1987). Every comparison is with the receiving plane at that texel, so no bias has to be tuned however wide the kernel.
+//! option width: 1 | 3 | 5 | 7 = 5 - Texels across the kernel.
+//! option weights: gaussian | box | tent = gaussian - Shape of the kernel.
+//! option taps: nearest | bilinear | hardware = bilinear - How a tap reads: the nearest texel (stairs), four texels blended after exact comparisons, or four blended by the sampler with one biased comparison.
+//! option size: 256 | 512 | 1024 | 2048 | 4096 = 2048 - Texels on a side of the map.
+//! map map: depth(size=$size)
+//! sampler map_sampler: compare=on filter=nearest address=clamp
+//! sampler blending_sampler: compare=on filter=linear address=clamp
+
+//#if width != 1
+const WIDTH: i32 = 5;
+
+//#end
+/// point (point world; = @position_world; hidden): The shaded point.
+/// space (space; hidden): The light's space.
+/// map (map; hidden): Linear depth of the nearest surface.
+//#if taps == hardware
+/// blending_sampler (sampler; hidden): Compares with four texels and blends the results.
+//#else
+/// map_sampler (sampler; hidden): Compares with one texel.
+//#end
+/// bias (distance; = 0; 0..; in m): Extra distance by which an occluder must be nearer to the light, for surfaces that the plane does not describe.
+/// receives (scalar; = @receives; hidden): 0 where the object takes no shadows.
+/// -> visibility (scalar visibility): 1 lit, 0 in shadow.
+fn pcf_shadow(
+    point: vec3f,
+    space: LightSpace,
+    map: texture_depth_2d,
+//#if taps == hardware
+    blending_sampler: sampler_comparison,
+//#else
+    map_sampler: sampler_comparison,
+//#end
+    bias: f32,
+    receives: f32,
+) -> f32 {
+    let normal = geometric_normal(point);
+    let position = light_position(space, point);
+    let plane = receiver_plane(space, position, normal);
+    let size = vec2f(textureDimensions(map));
+    let slope = receiver_slope(space, plane) / size;
+//#if taps == hardware
+    // The sampler compares one depth with four texels, whose centres lie up to a texel to each side.
+    let margin = bias * space.depth.z + receiver_rounding(slope) + slope.x + slope.y;
+//#else
+    let margin = bias * space.depth.z + receiver_rounding(slope);
+//#end
+//#if width == 1
+//#if taps == bilinear
+    let corner = plane.uv * size - 0.5;
+    let texel = (floor(corner) + 0.5) / size;
+    let part = fract(corner);
+    let next = 1.0 / size;
+    let uv_10 = texel + vec2f(next.x, 0.0);
+    let uv_01 = texel + vec2f(0.0, next.y);
+    let uv_11 = texel + next;
+    let lit_00 = textureSampleCompareLevel(map, map_sampler, texel, receiver_depth(space, plane, texel) - margin);
+    let lit_10 = textureSampleCompareLevel(map, map_sampler, uv_10, receiver_depth(space, plane, uv_10) - margin);
+    let lit_01 = textureSampleCompareLevel(map, map_sampler, uv_01, receiver_depth(space, plane, uv_01) - margin);
+    let lit_11 = textureSampleCompareLevel(map, map_sampler, uv_11, receiver_depth(space, plane, uv_11) - margin);
+    let visibility = mix(mix(lit_00, lit_10, part.x), mix(lit_01, lit_11, part.x), part.y);
+//#elif taps == nearest
+    let uv = (floor(plane.uv * size) + 0.5) / size;
+    let visibility = textureSampleCompareLevel(map, map_sampler, uv, receiver_depth(space, plane, uv) - margin);
+//#else
+    let depth = receiver_depth(space, plane, plane.uv) - margin;
+    let visibility = textureSampleCompareLevel(map, blending_sampler, plane.uv, depth);
+//#end
+//#else
+//#if taps == bilinear
+    // Bilinear taps on a grid share their texels: each texel is compared once, with the kernel convolved with the tent.
+    let corner = plane.uv * size - 0.5;
+    let part = fract(corner);
+    let first = floor(corner) + 0.5 - f32(WIDTH / 2);
+    let last_offset = WIDTH / 2 + 1;
+//#elif taps == nearest
+    let first = floor(plane.uv * size) + 0.5 - f32(WIDTH / 2);
+    let last_offset = WIDTH / 2;
+//#else
+    let first = plane.uv * size - f32(WIDTH / 2);
+    let last_offset = WIDTH / 2;
+//#end
+    var sum = 0.0;
+    var total = 0.0;
+//#if taps == bilinear
+    var before_y = 0.0;
+//#end
+    for (var y = -(WIDTH / 2); y <= last_offset; y++) {
+//#if weights == gaussian
+        let kernel_y = kernel_gaussian(y, WIDTH);
+//#elif weights == box
+        let kernel_y = kernel_box(y, WIDTH);
+//#else
+        let kernel_y = kernel_tent(y, WIDTH);
+//#end
+//#if taps == bilinear
+        let weight_y = mix(kernel_y, before_y, part.y);
+        before_y = kernel_y;
+        var before_x = 0.0;
+//#else
+        let weight_y = kernel_y;
+//#end
+        for (var x = -(WIDTH / 2); x <= last_offset; x++) {
+//#if weights == gaussian
+            let kernel_x = kernel_gaussian(x, WIDTH);
+//#elif weights == box
+            let kernel_x = kernel_box(x, WIDTH);
+//#else
+            let kernel_x = kernel_tent(x, WIDTH);
+//#end
+//#if taps == bilinear
+            let weight = mix(kernel_x, before_x, part.x) * weight_y;
+            before_x = kernel_x;
+//#else
+            let weight = kernel_x * weight_y;
+//#end
+            let uv = (first + vec2f(f32(x + WIDTH / 2), f32(y + WIDTH / 2))) / size;
+            let depth = receiver_depth(space, plane, uv) - margin;
+//#if taps == hardware
+            sum += weight * textureSampleCompareLevel(map, blending_sampler, uv, depth);
+//#else
+            sum += weight * textureSampleCompareLevel(map, map_sampler, uv, depth);
+//#end
+            total += weight;
+        }
+    }
+    let visibility = sum / total;
+//#end
+    return select(visibility, 1.0, receives < 0.5 || outside_light_map(space, position, plane.uv));
+}

@@ -1,0 +1,208 @@
+//! The fragment stage: one line per node, conversions in place.
+
+use std::collections::BTreeMap;
+
+use super::Reached;
+use super::functions::Functions;
+use super::names::{Names, sanitise};
+use super::stages::varying;
+use super::text::{Part, Text, is_atomic, parts};
+use crate::module::Origin;
+use crate::program::{Expression, Id, Op, Program, Resource};
+use crate::semantic::Shape;
+
+/// Calls longer than this take a line for each argument.
+const LINE: usize = 92;
+
+/// A printed expression with the origins of its parts, by bytes from its start.
+#[derive(Clone, Default)]
+struct Printed {
+    text: String,
+    origins: Vec<Origin>,
+}
+
+impl Printed {
+    fn push(&mut self, text: &str) {
+        self.text.push_str(text);
+    }
+
+    fn append(&mut self, other: &Printed) {
+        let shift = self.text.len();
+        self.text.push_str(&other.text);
+        self.origins.extend(other.origins.iter().map(|o| Origin {
+            start: o.start + shift,
+            end: o.end + shift,
+            ..o.clone()
+        }));
+    }
+}
+
+struct Printer<'a> {
+    program: &'a Program,
+    reached: &'a Reached,
+    functions: &'a Functions,
+    variables: &'a BTreeMap<Resource, String>,
+    members: &'a [Option<String>],
+    names: Names,
+    /// What to write where an expression is used.
+    printed: Vec<Printed>,
+}
+
+#[allow(clippy::too_many_arguments, reason = "the printer's whole input, handed over once")]
+pub(crate) fn write_fragment(
+    text: &mut Text,
+    program: &Program,
+    reached: &Reached,
+    root: Id,
+    functions: &Functions,
+    variables: &BTreeMap<Resource, String>,
+    members: &[Option<String>],
+    names: Names,
+) {
+    let printed = vec![Printed::default(); program.expressions.len()];
+    let mut printer = Printer { program, reached, functions, variables, members, names, printed };
+    text.blank();
+    text.line("@fragment");
+    let front_facing =
+        if reached.inputs.contains("front_facing") { ", @builtin(front_facing) front_facing: bool" } else { "" };
+    text.line(&format!("fn fs_main(in: Varyings{front_facing}) -> @location(0) vec4f {{"));
+    let mut last_comment = String::new();
+    for &id in &reached.order {
+        printer.write(text, id, &mut last_comment);
+    }
+    let color = printer.printed[root.0 as usize].clone();
+    let start = text.len();
+    text.push("    return vec4f(");
+    let at = text.len();
+    text.push(&color.text);
+    for origin in color.origins {
+        text.add(Origin { start: origin.start + at, end: origin.end + at, ..origin });
+    }
+    text.line(", 1.0);");
+    if let Some(node) = program.get(root).origins.first() {
+        text.origin(start, &program.nodes[*node].id, None);
+    }
+    text.line("}");
+}
+
+impl Printer<'_> {
+    fn write(&mut self, text: &mut Text, id: Id, last_comment: &mut String) {
+        let program = self.program;
+        let expression = program.get(id);
+        let printed = self.print(expression);
+        let leaf = expression.operands.is_empty() || matches!(expression.op, Op::Member(_));
+        let shared = self.reached.uses[id.0 as usize] > 1 && !leaf;
+        if !expression.result && !shared {
+            self.printed[id.0 as usize] = printed;
+            return;
+        }
+        let comment = if expression.result { comment(program, expression) } else { String::new() };
+        if expression.result && comment != *last_comment {
+            text.line(&format!("    // {comment}"));
+            *last_comment = comment;
+        }
+        let name = self.name(expression);
+        let start = text.len();
+        text.push(&format!("    let {name} = "));
+        let at = text.len();
+        text.line(&format!("{};", printed.text));
+        for node in &expression.origins {
+            text.origin(start, &program.nodes[*node].id, expression.port.as_deref());
+        }
+        for origin in printed.origins {
+            text.add(Origin { start: origin.start + at, end: origin.end + at, ..origin });
+        }
+        self.printed[id.0 as usize] = Printed { text: name, origins: Vec::new() };
+    }
+
+    fn name(&mut self, expression: &Expression) -> String {
+        self.names.fresh(&sanitise(&expression.name.replace("_under_", "_")))
+    }
+
+    fn print(&self, expression: &Expression) -> Printed {
+        let operand = |i: usize| expression.operands.get(i).map(|o| &self.printed[o.0 as usize]);
+        let mut out = Printed::default();
+        match &expression.op {
+            Op::Template { text, .. } => {
+                for part in parts(text) {
+                    match part {
+                        Part::Plain(plain) => out.push(plain),
+                        Part::Slot(i, alone) => {
+                            let Some(inner) = operand(i) else { continue };
+                            if alone || is_atomic(&inner.text) {
+                                out.append(inner);
+                            } else {
+                                out.push("(");
+                                out.append(inner);
+                                out.push(")");
+                            }
+                        }
+                    }
+                }
+            }
+            Op::Call(function) => {
+                out.push(self.functions.names.get(function).map_or("", String::as_str));
+                out.push("(");
+                let inputs = &self.program.functions[*function].function().inputs;
+                let length: usize = (0..expression.operands.len()).filter_map(operand).map(|o| o.text.len() + 2).sum();
+                let broken = length + out.text.len() + expression.name.len() > LINE;
+                for i in 0..expression.operands.len() {
+                    match (broken, i) {
+                        (true, _) => out.push("\n        "),
+                        (false, 0) => {}
+                        (false, _) => out.push(" "),
+                    }
+                    let start = out.text.len();
+                    if let Some(inner) = operand(i) {
+                        out.append(inner);
+                    }
+                    for node in &expression.origins {
+                        let port = inputs.get(i).map(|p| p.name.clone());
+                        let node = self.program.nodes[*node].id.clone();
+                        out.origins.push(Origin { start, end: out.text.len(), node, port });
+                    }
+                    if broken || i + 1 < expression.operands.len() {
+                        out.push(",");
+                    }
+                }
+                out.push(if broken { "\n    )" } else { ")" });
+            }
+            Op::Member(name) => {
+                if let Some(inner) = operand(0) {
+                    out.append(inner);
+                }
+                out.push(".");
+                out.push(name);
+            }
+            Op::Varying(v) => out.push(&format!("in.{}", varying(*v).0)),
+            Op::Input("front_facing") => out.push("front_facing"),
+            Op::Input(name) => out.push(&format!("in.{name}")),
+            Op::Frame(name) => out.push(&format!("frame.{name}")),
+            Op::Object(name) => out.push(&format!("object.{name}")),
+            Op::Parameter(index) => out.push(&self.parameter(*index)),
+            Op::Literal(text) => out.push(text),
+            Op::Resource(resource) => out.push(self.variables.get(resource).map_or("", String::as_str)),
+        }
+        out
+    }
+
+    fn parameter(&self, index: usize) -> String {
+        let member = self.members.get(index).and_then(Option::as_deref).unwrap_or_default();
+        let parameter = &self.program.parameters[index];
+        let port = self.program.nodes[parameter.node].definition.input(&parameter.port);
+        match port.map(|p| &p.ty.shape) {
+            // A bool cannot live in a uniform block.
+            Some(Shape::Bool) => format!("(parameters.{member} != 0u)"),
+            _ => format!("parameters.{member}"),
+        }
+    }
+}
+
+/// `node, other node: Label`, and the light it is evaluated under.
+fn comment(program: &Program, expression: &Expression) -> String {
+    let names: Vec<&str> = expression.origins.iter().map(|n| program.nodes[*n].id.as_str()).collect();
+    let label = expression.origins.first().map_or("", |n| program.nodes[*n].label.as_str());
+    let light = expression.light.map_or_else(String::new, |l| format!(", lit by {}", program.nodes[l].id));
+    // Names may hold what would end a comment's line only if nobody checked them; labels are one line by their format.
+    format!("{}: {label}{light}", names.join(", ")).replace(char::is_control, " ")
+}

@@ -1,0 +1,145 @@
+//! Names in generated text: sanitised, never reserved, each used once.
+
+use std::collections::HashSet;
+
+use crate::node::is_reserved;
+
+/// Names in use.
+#[derive(Default)]
+pub(crate) struct Names {
+    used: HashSet<String>,
+}
+
+impl Names {
+    /// Marks a name as used; whether it was free.
+    pub(crate) fn claim(&mut self, name: &str) -> bool {
+        self.used.insert(name.to_owned())
+    }
+
+    /// A free name near `wanted`, now used.
+    pub(crate) fn fresh(&mut self, wanted: &str) -> String {
+        let base = sanitise(wanted);
+        if !is_taken_by_wgsl(&base) && self.claim(&base) {
+            return base;
+        }
+        let mut count = 2_usize;
+        loop {
+            let name = format!("{base}_{count}");
+            if self.claim(&name) {
+                return name;
+            }
+            count += 1;
+        }
+    }
+}
+
+/// A WGSL identifier near `name`: `car/spot light` becomes `car_spot_light`.
+pub(crate) fn sanitise(name: &str) -> String {
+    let mut out = String::with_capacity(name.len());
+    for c in name.chars() {
+        let c = if c.is_ascii_alphanumeric() { c.to_ascii_lowercase() } else { '_' };
+        if c != '_' || !out.ends_with('_') {
+            out.push(c);
+        }
+    }
+    let trimmed = out.trim_matches('_');
+    if trimmed.is_empty() || trimmed.starts_with(|c: char| c.is_ascii_digit()) {
+        format!("n{trimmed}")
+    } else {
+        trimmed.to_owned()
+    }
+}
+
+fn is_taken_by_wgsl(name: &str) -> bool {
+    is_reserved(name) || BUILTINS.contains(&name)
+}
+
+/// Predeclared functions and types that a name of ours must not shadow.
+const BUILTINS: &[&str] = &[
+    "abs",
+    "acos",
+    "acosh",
+    "all",
+    "any",
+    "array",
+    "asin",
+    "asinh",
+    "atan",
+    "atan2",
+    "atanh",
+    "atomic",
+    "bitcast",
+    "bool",
+    "ceil",
+    "clamp",
+    "cos",
+    "cosh",
+    "cross",
+    "degrees",
+    "determinant",
+    "distance",
+    "dot",
+    "dpdx",
+    "dpdy",
+    "exp",
+    "exp2",
+    "f16",
+    "f32",
+    "floor",
+    "fma",
+    "fract",
+    "frexp",
+    "fwidth",
+    "i32",
+    "ldexp",
+    "length",
+    "log",
+    "log2",
+    "max",
+    "min",
+    "mix",
+    "modf",
+    "normalize",
+    "pow",
+    "ptr",
+    "radians",
+    "reflect",
+    "refract",
+    "round",
+    "sampler",
+    "saturate",
+    "select",
+    "sign",
+    "sin",
+    "sinh",
+    "smoothstep",
+    "sqrt",
+    "step",
+    "tan",
+    "tanh",
+    "transpose",
+    "trunc",
+    "u32",
+    "vec2f",
+    "vec3f",
+    "vec4f",
+    "mat2x2f",
+    "mat3x3f",
+    "mat4x4f",
+];
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn names_are_legal_and_unique() {
+        let mut names = Names::default();
+        assert_eq!(names.fresh("car/spot light"), "car_spot_light");
+        assert_eq!(names.fresh("car/spot light"), "car_spot_light_2");
+        assert_eq!(names.fresh("mix"), "mix_2");
+        assert_eq!(names.fresh("3d"), "n3d");
+        assert_eq!(names.fresh("ü"), "n");
+        assert_eq!(names.fresh("fn"), "fn_2");
+    }
+}

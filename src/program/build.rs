@@ -1,0 +1,152 @@
+//! From resolved wiring to expressions, node by node in evaluation order.
+
+use super::evaluate::{Context, Worth, takes_surfaces};
+use super::{Id, NodeInfo, Op, Program, Varying};
+use crate::node::Definition;
+use crate::semantic::Quantity;
+use crate::weave::{Root, Wire, Woven, is_light, is_lit, is_shadow, is_surface};
+
+use std::collections::{BTreeMap, BTreeSet};
+
+/// The program of a woven tree. With `bake`, parameters become constants.
+pub fn build(woven: &Woven, bake: bool) -> Program {
+    let mut program = Program { bake, ..Program::default() };
+    let mut count: BTreeMap<&str, u32> = BTreeMap::new();
+    let last = |id: &'_ str| id.rfind('/').map_or(0, |at| at + 1);
+    for node in &woven.nodes {
+        *count.entry(&node.id[last(&node.id)..]).or_default() += 1;
+    }
+    let short = |id: &str| if count[&id[last(id)..]] == 1 { id[last(id)..].to_owned() } else { id.to_owned() };
+    program.nodes = woven
+        .nodes
+        .iter()
+        .map(|n| NodeInfo {
+            id: n.id.clone(),
+            short: short(&n.id),
+            label: n.definition.header.label.clone(),
+            definition: n.definition.clone(),
+            generic: n.generic.clone(),
+        })
+        .collect();
+    let mut worth: Vec<Worth> = Vec::with_capacity(woven.nodes.len());
+    for index in 0..woven.nodes.len() {
+        let value = evaluate(&mut program, woven, &worth, index);
+        worth.push(value);
+    }
+    program.root = root(&mut program, woven, &worth);
+    program
+}
+
+/// What a node is worth under no light and under each.
+fn evaluate(program: &mut Program, woven: &Woven, worth: &[Worth], index: usize) -> Worth {
+    let node = &woven.nodes[index];
+    let definition: &Definition = &node.definition;
+    let at = |light| Context { woven, worth, index, light };
+    let mut result = Worth::default();
+    if is_light(definition) {
+        result.plain = program.call(&at(None), false);
+        return result;
+    }
+    let mut lights: BTreeSet<usize> = node.lights.keys().copied().collect();
+    let mut lit_inputs = false;
+    for wire in node.inputs.values() {
+        if let Wire::Output { node: from, .. } = wire {
+            lights.extend(worth[*from].lit.keys());
+            lit_inputs |= !worth[*from].lit.is_empty() && !is_surface(&woven.nodes[*from].definition);
+        }
+    }
+    let depends = is_lit(definition) || (is_shadow(definition) && !node.lights.is_empty()) || lit_inputs;
+    let combines = takes_surfaces(definition);
+    for light in lights {
+        let base_is_lit = || {
+            node.inputs
+                .values()
+                .any(|w| matches!(w, Wire::Output { node, .. } if worth[*node].lit.contains_key(&light)))
+        };
+        if (depends || (combines && base_is_lit()))
+            && let Some(outputs) = program.call(&at(Some(light)), false)
+        {
+            result.lit.insert(light, outputs);
+        }
+    }
+    let ambient_base = || {
+        node.inputs.iter().any(|(name, w)| {
+            let radiance = definition.input(name).is_some_and(|p| p.ty.meaning.quantity == Quantity::Radiance);
+            radiance && matches!(w, Wire::Output { node, .. } if worth[*node].plain.is_some())
+        })
+    };
+    result.plain = if definition.ambient.is_some() {
+        program.call(&at(None), true)
+    } else if !depends && (!combines || ambient_base()) {
+        program.call(&at(None), false)
+    } else {
+        None
+    };
+    result
+}
+
+/// The colour that is written.
+fn root(program: &mut Program, woven: &Woven, worth: &[Worth]) -> Option<Id> {
+    let nowhere = |light| Context { woven, worth, index: 0, light };
+    match &woven.root {
+        Root::Surface { node } => {
+            let worth = &worth[*node];
+            let terms: Vec<Id> = worth.lit.values().chain(&worth.plain).filter_map(|o| o.first().copied()).collect();
+            if terms.is_empty() {
+                return Some(program.add(Op::Literal("vec3f(0.0)".into()), Vec::new(), "nothing", None));
+            }
+            Some(program.fold("+", &terms, "radiance"))
+        }
+        Root::Value { node, output, chain } => {
+            let position = woven.nodes[*node].definition.main.outputs.iter().position(|o| &o.name == output)?;
+            let worth = &worth[*node];
+            let terms: Vec<Id> = match &worth.plain {
+                Some(plain) => vec![plain[position]],
+                None => worth.lit.values().map(|o| o[position]).collect(),
+            };
+            let terms: Vec<Id> = terms.into_iter().map(|t| program.converted(t, chain, Some(*node), output)).collect();
+            if terms.is_empty() {
+                return Some(program.add(Op::Literal("vec3f(0.0)".into()), Vec::new(), "nothing", None));
+            }
+            Some(program.fold("+", &terms, "shown"))
+        }
+        Root::Irradiance { lights } => {
+            let terms: Vec<Id> =
+                lights.iter().filter_map(|(l, s)| program.irradiance(&nowhere(Some(*l)), *l, s)).collect();
+            Some(program.fold("+", &terms, "irradiance"))
+        }
+        Root::Visibility { light, shadows } => {
+            let mut terms = Vec::new();
+            for shadow in shadows {
+                let scalar = woven.nodes[*shadow].definition.main.outputs[0].ty.shape.width() == Some(1);
+                if let Some(visibility) = worth[*shadow].lit.get(light).and_then(|o| o.first()) {
+                    terms.push(if scalar {
+                        program.template("vec3f($0)", vec![*visibility], "visibility", None)
+                    } else {
+                        *visibility
+                    });
+                }
+            }
+            if terms.is_empty() {
+                return Some(program.add(Op::Literal("vec3f(1.0)".into()), Vec::new(), "visibility", None));
+            }
+            Some(program.fold("*", &terms, "visibility"))
+        }
+        Root::Normal { node } => {
+            let wire = node.and_then(|n| Some((n, woven.nodes[n].inputs.get("normal")?)));
+            if let Some((index, Wire::Output { node: from, output, chain })) = wire {
+                let position = woven.nodes[*from].definition.main.outputs.iter().position(|o| &o.name == output)?;
+                if let Some(plain) = &worth[*from].plain {
+                    let value = plain[position];
+                    return Some(program.converted(value, chain, Some(index), "normal"));
+                }
+            }
+            let normal = program.add(Op::Varying(Varying::NormalWorld), Vec::new(), "normal_world", None);
+            Some(program.template("normalize($0)", vec![normal], "normal_world_unit", None))
+        }
+        Root::Depth => {
+            let depth = program.source("depth");
+            Some(program.template("vec3f($0)", vec![depth], "depth_shown", None))
+        }
+    }
+}

@@ -1,0 +1,330 @@
+//! Calls of node functions: arguments from wires, in the context of a light or of none.
+
+use super::{Id, Instance, MapDemand, Op, Parameter, Program, Resource, sampler_settings};
+use crate::module::stored;
+use crate::node::{Definition, Port, rename};
+use crate::semantic::{Chain, Kind, Quantity, Shape, Value};
+use crate::weave::{Node, Wire, Woven, is_light, is_shadow};
+
+use std::collections::BTreeMap;
+
+/// What a node is worth: one expression per output, without a light and under each light.
+#[derive(Clone, Default)]
+pub(crate) struct Worth {
+    /// Under no light; for surfaces, the ambient part.
+    pub(crate) plain: Option<Vec<Id>>,
+    /// Under each light.
+    pub(crate) lit: BTreeMap<usize, Vec<Id>>,
+}
+
+/// Everything a call needs to know.
+pub(crate) struct Context<'a> {
+    pub(crate) woven: &'a Woven,
+    pub(crate) worth: &'a [Worth],
+    /// Index of the node that is evaluated.
+    pub(crate) index: usize,
+    /// The light, if any.
+    pub(crate) light: Option<usize>,
+}
+
+impl Context<'_> {
+    fn node(&self) -> &Node {
+        &self.woven.nodes[self.index]
+    }
+
+    /// The outputs of another node as seen from here.
+    fn outputs(&self, node: usize) -> Option<&[Id]> {
+        let worth = &self.worth[node];
+        let surface = self.woven.nodes[node].definition.main.outputs.first().map(|p| p.ty.meaning.quantity)
+            == Some(Quantity::Radiance);
+        let under = self.light.and_then(|l| worth.lit.get(&l));
+        match under {
+            Some(outputs) => Some(outputs),
+            // The ambient part of a surface is not part of what it does under a light.
+            None if surface && self.light.is_some() => None,
+            None => worth.plain.as_deref(),
+        }
+    }
+
+    fn output(&self, node: usize, name: &str) -> Option<Id> {
+        let position = self.woven.nodes[node].definition.main.outputs.iter().position(|o| o.name == name)?;
+        self.outputs(node)?.get(position).copied()
+    }
+}
+
+impl Program {
+    /// The outputs of a call of the main or the ambient function; none if an argument is missing in this context.
+    pub(crate) fn call(&mut self, context: &Context<'_>, ambient: bool) -> Option<Vec<Id>> {
+        let node = context.node();
+        let instance = Instance { definition: node.definition.clone(), generic: node.generic.clone(), ambient };
+        let function = instance.function().clone();
+        let mut arguments = Vec::with_capacity(function.inputs.len());
+        for port in &function.inputs {
+            arguments.push(self.argument(context, port)?);
+        }
+        let inline = function.body.as_ref().filter(|_| node.definition.header.inline);
+        let inline_text = inline.map(|body| placeholders(body, &instance));
+        let index = self.function(instance);
+        let name = self.result_name(context, &function, ambient);
+        let id = match inline_text {
+            Some(text) => {
+                let op = Op::Template { text: text.into(), function: Some(index) };
+                self.add(op, arguments, &name, Some(context.index))
+            }
+            None => self.add(Op::Call(index), arguments, &name, Some(context.index)),
+        };
+        // A node that hands on its input unchanged has no line of its own.
+        let expression = &mut self.expressions[id.0 as usize];
+        expression.result = true;
+        expression.light = context.light.filter(|_| !is_light(&node.definition) && !is_shadow(&node.definition));
+        if function.result_struct.is_none() {
+            return Some(vec![id]);
+        }
+        let member = |program: &mut Self, port: &Port| {
+            let name = format!("{name}_{}", port.name);
+            program.add(Op::Member(port.name.as_str().into()), vec![id], &name, Some(context.index))
+        };
+        Some(function.outputs.iter().map(|p| member(self, p)).collect())
+    }
+
+    fn argument(&mut self, context: &Context<'_>, port: &Port) -> Option<Id> {
+        let node = context.node();
+        let origin = Some(context.index);
+        let radiance = port.ty.meaning.quantity == Quantity::Radiance;
+        let Some(wire) = node.inputs.get(&port.name) else {
+            return radiance.then(|| self.zero());
+        };
+        match wire {
+            Wire::Output { node: from, output, chain } => match context.output(*from, output) {
+                Some(value) => Some(self.converted(value, chain, origin, &port.name)),
+                None if radiance => Some(self.zero()),
+                None => None,
+            },
+            Wire::Light { output, chain } => {
+                let value = context.output(context.light?, output)?;
+                Some(self.converted(value, chain, origin, &port.name))
+            }
+            Wire::Irradiance => {
+                let light = context.light?;
+                let shadows: Vec<usize> =
+                    node.lights.get(&light)?.iter().copied().filter(|s| *s != context.index).collect();
+                self.irradiance(context, light, &shadows)
+            }
+            Wire::Value(value) => Some(self.parameter(&node.definition, context.index, port, value)),
+            Wire::Source(name) => Some(self.provided(context, name, port)),
+            Wire::Space => {
+                let light = context.light?;
+                let name = format!("{}_space", self.nodes[light].short);
+                Some(self.add(Op::Resource(Resource::Space(light)), Vec::new(), &name, origin))
+            }
+            Wire::Map => {
+                let index = self.map(&node.definition, context.index, context.light?, port);
+                let name = format!("{}_map", self.nodes[context.light?].short);
+                Some(self.add(Op::Resource(Resource::Map(index)), Vec::new(), &name, origin))
+            }
+            Wire::Sampler => {
+                let settings = sampler_settings(&node.definition, &port.name);
+                Some(self.add(Op::Resource(Resource::Sampler(settings)), Vec::new(), &port.name, origin))
+            }
+            Wire::Image(path, base) => {
+                let definition = &node.definition;
+                let spec = definition.header.textures.iter().find(|t| t.port == port.name);
+                let encoding = spec.and_then(|s| s.settings.iter().find(|(k, _)| k == "encoding"));
+                let srgb = encoding.is_some_and(|(_, v)| definition.setting(v) == "srgb");
+                let name = format!("{}_{}", self.nodes[context.index].short, port.name);
+                let resource = Resource::Image { path: path.clone(), base: base.clone(), srgb, name: name.clone() };
+                Some(self.add(Op::Resource(resource), Vec::new(), &name, origin))
+            }
+        }
+    }
+
+    fn zero(&mut self) -> Id {
+        self.add(Op::Literal("vec3f(0.0)".into()), Vec::new(), "zero", None)
+    }
+
+    /// A source converted to what the port wants: an interpolated normal is normalised here, once for all who ask.
+    fn provided(&mut self, context: &Context<'_>, name: &str, port: &Port) -> Id {
+        let id = self.source(name);
+        let Some(source) = crate::node::source(name) else { return id };
+        let conversions = crate::semantic::Conversions::default();
+        match conversions.chain(&source.ty, &port.ty) {
+            Some(chain) => self.converted(id, &chain, Some(context.index), &port.name),
+            None => id,
+        }
+    }
+
+    /// The value after a chain of conversions.
+    pub(crate) fn converted(&mut self, value: Id, chain: &Chain, origin: Option<usize>, port: &str) -> Id {
+        let mut value = value;
+        for step in &chain.steps {
+            let base = self.get(value).name.clone();
+            let mut text = String::new();
+            let mut operands = vec![value];
+            // `$` is the value, `@name` a source.
+            let mut rest = step.template;
+            while let Some(at) = rest.find(['$', '@']) {
+                text.push_str(&rest[..at]);
+                if rest.as_bytes()[at] == b'$' {
+                    text.push_str("$0");
+                    rest = &rest[at + 1..];
+                    continue;
+                }
+                let name_end =
+                    rest[at + 1..].find(|c: char| !c.is_alphanumeric() && c != '_').map_or(rest.len(), |e| at + 1 + e);
+                let source = self.source(&rest[at + 1..name_end]);
+                let position = operands.iter().skip(1).position(|o| *o == source).map_or(operands.len(), |p| p + 1);
+                if position == operands.len() {
+                    operands.push(source);
+                }
+                text.push_str(&format!("${position}"));
+                rest = &rest[name_end..];
+            }
+            text.push_str(rest);
+            value = self.template(&text, operands, &format!("{base}_{}", step.label), None);
+            let expression = &mut self.expressions[value.0 as usize];
+            expression.origins.extend(origin);
+            expression.port.get_or_insert_with(|| port.into());
+        }
+        value
+    }
+
+    /// What a light delivers after these shadows.
+    pub(crate) fn irradiance(&mut self, context: &Context<'_>, light: usize, shadows: &[usize]) -> Option<Id> {
+        let definition = &context.woven.nodes[light].definition;
+        let output = definition.main.outputs.iter().find(|o| o.ty.meaning.quantity == Quantity::Irradiance)?;
+        let here = Context { light: Some(light), ..*context };
+        let mut factors = vec![here.output(light, &output.name)?];
+        for &shadow in shadows {
+            factors.extend(here.worth[shadow].lit.get(&light).and_then(|o| o.first()));
+        }
+        let name = format!("{}_irradiance", self.nodes[light].short);
+        Some(self.fold("*", &factors, &name))
+    }
+
+    /// The operands joined by an operator.
+    pub(crate) fn fold(&mut self, operator: &str, operands: &[Id], name: &str) -> Id {
+        if let [one] = operands {
+            return *one;
+        }
+        let slots: Vec<String> = (0..operands.len()).map(|i| format!("${i}")).collect();
+        self.template(&slots.join(&format!(" {operator} ")), operands.to_vec(), name, None)
+    }
+
+    fn parameter(&mut self, definition: &Definition, node: usize, port: &Port, value: &Value) -> Id {
+        let constant = self.bake && !space_inputs(definition).contains(&port.name);
+        let shape = self.shape_of(node, port);
+        if constant {
+            let text = literal(&shape, port, value);
+            return self.add(Op::Literal(text.into()), Vec::new(), &port.name, Some(node));
+        }
+        let index = self.parameter_slot(node, port, value);
+        let name = format!("{}_{}", self.nodes[node].short, port.name);
+        self.add(Op::Parameter(index), Vec::new(), &name, Some(node))
+    }
+
+    /// The index of the parameter for an input.
+    pub(crate) fn parameter_slot(&mut self, node: usize, port: &Port, value: &Value) -> usize {
+        let key = (node, port.name.clone());
+        *self.parameter_index.entry(key).or_insert_with(|| {
+            self.parameters.push(Parameter { node, port: port.name.clone(), value: value.clone() });
+            self.parameters.len() - 1
+        })
+    }
+
+    /// The shape of an input once `T` is chosen.
+    pub(crate) fn shape_of(&self, node: usize, port: &Port) -> Shape {
+        match (&port.ty.shape, &self.nodes[node].generic) {
+            (Shape::Generic, Some(shape)) => shape.clone(),
+            (shape, _) => shape.clone(),
+        }
+    }
+
+    fn map(&mut self, definition: &Definition, node: usize, light: usize, port: &Port) -> usize {
+        let spec = definition.header.maps.iter().find(|m| m.port == port.name);
+        let passes: Vec<(String, BTreeMap<String, String>)> = spec
+            .map(|s| s.passes.as_slice())
+            .unwrap_or_default()
+            .iter()
+            .map(|(name, arguments)| {
+                let resolved = arguments.iter().map(|(k, v)| (k.clone(), definition.setting(v).to_owned()));
+                (name.clone(), resolved.collect())
+            })
+            .collect();
+        let depth = port.ty.shape == Shape::DepthTexture;
+        let filtered = !depth
+            && definition
+                .inputs()
+                .any(|p| p.ty.shape == Shape::Sampler && sampler_settings(definition, &p.name).linear);
+        if let Some(i) = self.maps.iter().position(|m| m.light == light && m.passes == passes && m.depth == depth) {
+            self.maps[i].filtered |= filtered;
+            return i;
+        }
+        self.maps.push(MapDemand { light, passes, depth, filtered, node, port: port.name.clone() });
+        self.maps.len() - 1
+    }
+
+    /// A name for the result of a node: the node's, with the light's and the output's where they say more.
+    fn result_name(&self, context: &Context<'_>, function: &crate::node::Function, ambient: bool) -> String {
+        let node = context.node();
+        let mut name = self.nodes[context.index].short.clone();
+        if let Some(light) = context.light
+            && (!is_shadow(&node.definition) || node.lights.len() > 1)
+            && !is_light(&node.definition)
+        {
+            name = format!("{name}_under_{}", self.nodes[light].short);
+        }
+        if ambient {
+            name.push_str("_ambient");
+        }
+        match function.outputs.as_slice() {
+            [one] if function.result_struct.is_none() && !matches!(one.name.as_str(), "value" | "result") => {
+                if name.ends_with(&one.name) { name } else { format!("{name}_{}", one.name) }
+            }
+            _ => name,
+        }
+    }
+}
+
+/// Inputs of a light that define the space of its maps.
+pub(crate) fn space_inputs(definition: &Definition) -> &[String] {
+    definition.header.space.as_ref().map_or(&[], |s| &s.inputs)
+}
+
+/// The body of an inline function with `$i` for its parameters and `T` replaced.
+fn placeholders(body: &str, instance: &Instance) -> String {
+    let function = instance.function();
+    rename(body, &|word| {
+        if word == "T"
+            && let Some(shape) = &instance.generic
+        {
+            return Some(shape.wgsl());
+        }
+        function.inputs.iter().position(|p| p.name == word).map(|i| format!("${i}"))
+    })
+}
+
+/// A value as WGSL.
+pub(crate) fn literal(shape: &Shape, port: &Port, value: &Value) -> String {
+    let numbers = stored(value, shape, &port.unit);
+    #[allow(clippy::cast_possible_truncation, reason = "WGSL has no 64-bit numbers")]
+    let float = |x: f64| format!("{:?}", x as f32);
+    match (shape, numbers.as_slice()) {
+        (Shape::Bool, [x, ..]) => (*x != 0.0).to_string(),
+        (Shape::I32, [x, ..]) => format!("{x}i"),
+        (Shape::U32, [x, ..]) => format!("{x}u"),
+        (Shape::F32(1), [x, ..]) => float(*x),
+        _ => {
+            let parts: Vec<String> = numbers.iter().map(|x| float(*x)).collect();
+            format!("{}({})", shape.wgsl(), parts.join(", "))
+        }
+    }
+}
+
+/// Whether a node of this kind is worth a call at all outside a light.
+pub(crate) fn takes_surfaces(definition: &Definition) -> bool {
+    definition
+        .main
+        .inputs
+        .iter()
+        .any(|p| p.ty.meaning.quantity == Quantity::Radiance && p.ty.meaning.kind == Kind::Color)
+}

@@ -1,0 +1,268 @@
+//! The typed, hash-consed expression DAG that a woven tree becomes, and how it is built.
+//!
+//! Equal expressions are one expression, so what two nodes share is computed once; what the root does not reach is
+//! never emitted. A light is evaluated once; a shadow once per light that it is on; a surface once per light, and once
+//! for what depends on no light. Nothing in here knows WGSL beyond the templates that nodes and conversions bring.
+
+mod build;
+mod evaluate;
+mod source;
+
+use std::collections::{BTreeMap, BTreeSet, HashMap};
+use std::rc::Rc;
+use std::sync::Arc;
+
+use crate::module::{Address, SamplerSettings};
+use crate::node::{Definition, Function};
+use crate::semantic::{Shape, Value};
+
+pub use build::build;
+
+/// Index of an expression; operands have smaller indices than what uses them.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct Id(pub u32);
+
+/// What an expression does with its operands.
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+pub enum Op {
+    /// WGSL with `$0`, `$1`, ... for the operands; from a conversion, a source or an inline node.
+    Template {
+        /// The text.
+        text: Rc<str>,
+        /// The node function that the text is the body of, if it is one.
+        function: Option<usize>,
+    },
+    /// A call of `functions[.0]` with the operands as arguments.
+    Call(usize),
+    /// A member of the structure that the operand is.
+    Member(Rc<str>),
+    /// A value interpolated from vertices.
+    Varying(Varying),
+    /// A built-in input of the fragment stage: `clip_position` or `front_facing`.
+    Input(&'static str),
+    /// A member of the frame block.
+    Frame(&'static str),
+    /// A member of the object block.
+    Object(&'static str),
+    /// A parameter: index into `parameters`.
+    Parameter(usize),
+    /// A value written in place.
+    Literal(Rc<str>),
+    /// Something bound.
+    Resource(Resource),
+}
+
+/// A value interpolated from vertices.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+#[allow(missing_docs, reason = "each is the source of the same name")]
+pub enum Varying {
+    PositionWorld,
+    PositionObject,
+    NormalWorld,
+    NormalObject,
+    TangentWorld,
+    TangentObject,
+    Texcoord,
+    VertexColor,
+}
+
+/// Something bound, before it has a binding number.
+#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum Resource {
+    /// An image file.
+    Image {
+        /// Path as the graph gives it.
+        path: String,
+        /// File that mentions it.
+        base: String,
+        /// Whether it is sRGB-encoded.
+        srgb: bool,
+        /// Node and port that ask for it, for its name.
+        name: String,
+    },
+    /// A sampler.
+    Sampler(SamplerSettings),
+    /// The space of a light.
+    Space(usize),
+    /// A map: index into `maps`.
+    Map(usize),
+    /// The surroundings.
+    Environment,
+    /// Their sampler.
+    EnvironmentSampler,
+}
+
+/// An expression.
+#[derive(Clone, Debug)]
+pub struct Expression {
+    /// What it does.
+    pub op: Op,
+    /// To what.
+    pub operands: Vec<Id>,
+    /// A name for its value.
+    pub name: Rc<str>,
+    /// Nodes that it stands for, by index into `nodes`.
+    pub origins: BTreeSet<usize>,
+    /// The port of the first such node that it feeds, for conversions.
+    pub port: Option<Rc<str>>,
+    /// Whether it is the result of a node, and so gets a line of its own.
+    pub result: bool,
+    /// The light that a node's result was evaluated under, where it is one of several terms.
+    pub light: Option<usize>,
+}
+
+/// A node function in use.
+#[derive(Clone, Debug)]
+pub struct Instance {
+    /// Where it is defined.
+    pub definition: Arc<Definition>,
+    /// What `T` stands for.
+    pub generic: Option<Shape>,
+    /// Whether it is the ambient function.
+    pub ambient: bool,
+}
+
+impl Instance {
+    /// The function.
+    pub fn function(&self) -> &Function {
+        match (&self.definition.ambient, self.ambient) {
+            (Some(ambient), true) => ambient,
+            _ => &self.definition.main,
+        }
+    }
+}
+
+/// A value that can change without a new pipeline.
+#[derive(Clone, Debug)]
+pub struct Parameter {
+    /// Index of the node.
+    pub node: usize,
+    /// Name of the input.
+    pub port: String,
+    /// Value from the graph or the node's default.
+    pub value: Value,
+}
+
+/// A map that a node asks for.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct MapDemand {
+    /// Index of the light.
+    pub light: usize,
+    /// Passes with their options, `$option` resolved.
+    pub passes: Vec<(String, BTreeMap<String, String>)>,
+    /// Whether it is read as a depth texture.
+    pub depth: bool,
+    /// Whether some sampler interpolates in it.
+    pub filtered: bool,
+    /// Index of the node that asked first.
+    pub node: usize,
+    /// Name of its input.
+    pub port: String,
+}
+
+/// What is known of a node once it is part of a program.
+#[derive(Clone, Debug)]
+pub struct NodeInfo {
+    /// Name among all graphs.
+    pub id: String,
+    /// The last part of the name where that is unique, else all of it.
+    pub short: String,
+    /// Label of its definition.
+    pub label: String,
+    /// Its definition.
+    pub definition: Arc<Definition>,
+    /// What `T` stands for.
+    pub generic: Option<Shape>,
+}
+
+/// A program: expressions and what they refer to.
+#[derive(Default)]
+pub struct Program {
+    /// All expressions, operands first.
+    pub expressions: Vec<Expression>,
+    /// Node functions.
+    pub functions: Vec<Instance>,
+    /// Parameters.
+    pub parameters: Vec<Parameter>,
+    /// Maps.
+    pub maps: Vec<MapDemand>,
+    /// Nodes.
+    pub nodes: Vec<NodeInfo>,
+    /// The `vec3f` that is written.
+    pub root: Option<Id>,
+    known: HashMap<(Op, Vec<Id>), Id>,
+    function_index: HashMap<String, usize>,
+    parameter_index: HashMap<(usize, String), usize>,
+    bake: bool,
+}
+
+impl Program {
+    /// The expression that does `op` to `operands`: an existing one if there is one.
+    pub fn add(&mut self, op: Op, operands: Vec<Id>, name: &str, origin: Option<usize>) -> Id {
+        let key = (op, operands);
+        if let Some(&id) = self.known.get(&key) {
+            self.expressions[id.0 as usize].origins.extend(origin);
+            return id;
+        }
+        let id = Id(u32::try_from(self.expressions.len()).expect("bounded by the limits on nodes"));
+        let (op, operands) = key.clone();
+        let origins = origin.into_iter().collect();
+        self.expressions.push(Expression {
+            op,
+            operands,
+            name: name.into(),
+            origins,
+            port: None,
+            result: false,
+            light: None,
+        });
+        self.known.insert(key, id);
+        id
+    }
+
+    /// A template over operands.
+    pub fn template(&mut self, text: &str, operands: Vec<Id>, name: &str, origin: Option<usize>) -> Id {
+        self.add(Op::Template { text: text.into(), function: None }, operands, name, origin)
+    }
+
+    /// The expression.
+    pub fn get(&self, id: Id) -> &Expression {
+        &self.expressions[id.0 as usize]
+    }
+
+    fn function(&mut self, instance: Instance) -> usize {
+        let d = &instance.definition;
+        let key = format!(
+            "{}\n{}\n{:?}\n{:?}\n{}",
+            d.header.source.name, d.kind, d.choices, instance.generic, instance.ambient
+        );
+        *self.function_index.entry(key).or_insert_with(|| {
+            self.functions.push(instance);
+            self.functions.len() - 1
+        })
+    }
+}
+
+/// Sampler settings from a definition's header line.
+pub(crate) fn sampler_settings(definition: &Definition, port: &str) -> SamplerSettings {
+    let spec = definition.header.samplers.iter().find(|s| s.port == port);
+    let get = |key: &str| {
+        let setting = spec?.settings.iter().find(|(k, _)| k == key)?;
+        Some(definition.setting(&setting.1))
+    };
+    let filter = get("filter").unwrap_or("linear");
+    let anisotropy = get("anisotropy").and_then(|a| a.parse().ok()).unwrap_or(1);
+    // Anisotropic filtering needs every filter linear.
+    let anisotropy = if filter == "trilinear" { anisotropy } else { 1 };
+    SamplerSettings {
+        linear: filter != "nearest",
+        mip_linear: filter == "trilinear",
+        address: match get("address") {
+            Some("clamp") => Address::Clamp,
+            Some("mirror") => Address::Mirror,
+            _ => Address::Repeat,
+        },
+        anisotropy,
+        compare: get("compare") == Some("on"),
+    }
+}

@@ -1,0 +1,169 @@
+//! From graphs and a catalogue to resolved wiring: which output feeds which port, through which conversions, under
+//! which lights. Everything that a person can get wrong in a graph is found here and reported together.
+//!
+//! The order of the work: collect the nodes of all graphs ([`collect`]), join light programs to surface programs
+//! ([`join`]), sort, follow lights through their shadows ([`lights`]), resolve the ports of each node together
+//! ([`resolve`]), and choose what the fragment shader writes ([`root`]). Nothing recurses on the depth of a graph.
+
+mod assign;
+mod collect;
+mod join;
+mod lights;
+mod resolve;
+mod root;
+mod spaces;
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::rc::Rc;
+use std::sync::Arc;
+
+use crate::compile::{NamedGraph, Output};
+use crate::diagnostic::{Diagnostic, Place, has_errors};
+use crate::node::{Catalog, Definition, Port};
+use crate::semantic::{Chain, Conversions, Kind, Quantity, Shape, Type, Value};
+
+pub use root::Root;
+
+/// Resolved wiring, in evaluation order.
+pub struct Woven {
+    /// Nodes; each comes after everything that feeds it.
+    pub nodes: Vec<Node>,
+    /// What is written.
+    pub root: Root,
+}
+
+/// A node with all of its inputs decided.
+pub struct Node {
+    /// Name, with the graph's name and a `/` before it if there are several graphs.
+    pub id: String,
+    /// What it computes.
+    pub definition: Arc<Definition>,
+    /// What `T` stands for, for generic definitions.
+    pub generic: Option<Shape>,
+    /// What feeds each input. An input that only matters under a light may be missing when there is none.
+    pub inputs: BTreeMap<String, Wire>,
+    /// Lights that reach this node through lights and shadows alone, each with the shadows on its way.
+    pub lights: BTreeMap<usize, BTreeSet<usize>>,
+    /// Where it was written.
+    pub place: Place,
+}
+
+/// What feeds an input.
+#[derive(Clone)]
+pub enum Wire {
+    /// An output of another node.
+    Output {
+        /// Index of the node.
+        node: usize,
+        /// Name of the output.
+        output: String,
+        /// Conversions on the way.
+        chain: Rc<Chain>,
+    },
+    /// An output of the light in whose context the node is evaluated.
+    Light {
+        /// Name of the output.
+        output: String,
+        /// Conversions on the way.
+        chain: Rc<Chain>,
+    },
+    /// Irradiance of the light in context, after the shadows between it and this node.
+    Irradiance,
+    /// Nothing: the value is a parameter.
+    Value(Value),
+    /// Something that the compiler provides.
+    Source(String),
+    /// The space of the light in context.
+    Space,
+    /// A map in that space.
+    Map,
+    /// The sampler that the definition describes.
+    Sampler,
+    /// An image by path, with the file that mentions it.
+    Image(String, String),
+}
+
+impl Node {
+    /// Type of an output once generics are chosen.
+    pub fn output_type(&self, port: &Port) -> Type {
+        instantiated(&port.ty, self.generic.as_ref())
+    }
+}
+
+/// The type with `T` replaced.
+pub fn instantiated(ty: &Type, generic: Option<&Shape>) -> Type {
+    match (&ty.shape, generic) {
+        (Shape::Generic, Some(shape)) => Type::new(ty.meaning, shape.clone()),
+        _ => ty.clone(),
+    }
+}
+
+/// Whether a definition is a light: it gives irradiance and takes none.
+pub fn is_light(definition: &Definition) -> bool {
+    let gives = |q| definition.main.outputs.iter().any(|p| p.ty.meaning.quantity == q);
+    gives(Quantity::Irradiance) && !is_lit(definition)
+}
+
+/// Whether a definition is a shadow or filter: its first output says which share of light gets through.
+pub fn is_shadow(definition: &Definition) -> bool {
+    definition.main.outputs.first().is_some_and(|p| p.ty.meaning.quantity == Quantity::Visibility)
+}
+
+/// Whether a definition takes the light of one light at a time.
+pub fn is_lit(definition: &Definition) -> bool {
+    definition.inputs().any(|p| p.ty.meaning.quantity == Quantity::Irradiance)
+}
+
+/// Whether a definition's result is seen: its first output is radiance.
+pub fn is_surface(definition: &Definition) -> bool {
+    definition.main.outputs.first().is_some_and(|p| p.ty.meaning.quantity == Quantity::Radiance)
+}
+
+/// Whether an input of a lit definition can only come from a light.
+pub(crate) fn is_light_port(definition: &Definition, port: &Port) -> bool {
+    let meaning = port.ty.meaning;
+    meaning.quantity == Quantity::Irradiance
+        || (is_lit(definition)
+            && port.default.is_none()
+            && !port.hidden
+            && matches!(meaning.kind, Kind::Direction | Kind::Distance))
+}
+
+/// A link between collected nodes.
+#[derive(Clone)]
+pub(crate) struct Link {
+    pub(crate) from: usize,
+    pub(crate) from_port: Option<String>,
+    pub(crate) to: usize,
+    pub(crate) to_port: Option<String>,
+    pub(crate) place: Place,
+}
+
+/// A node as collected: its definition is missing if it could not be had.
+pub(crate) struct Found {
+    pub(crate) id: String,
+    pub(crate) graph: usize,
+    pub(crate) definition: Option<Arc<Definition>>,
+    pub(crate) values: BTreeMap<String, Value>,
+    pub(crate) base: String,
+    pub(crate) place: Place,
+}
+
+/// Resolves the wiring of `graphs` together. The result is there only if no error was found.
+pub fn weave(graphs: &[NamedGraph], catalog: &Catalog, output: &Output) -> (Option<Woven>, Vec<Diagnostic>) {
+    let mut diagnostics = Vec::new();
+    let mut collected = collect::collect(graphs, catalog, &mut diagnostics);
+    join::join(graphs, &collected.nodes, &mut collected.links, &mut diagnostics);
+    let Some(order) = collect::order(&collected, &mut diagnostics) else { return (None, diagnostics) };
+    collected.reorder(&order);
+    let lights = lights::follow(&collected, &mut diagnostics);
+    let conversions = Conversions::default();
+    let nodes = resolve::resolve(&collected, lights, &conversions, &mut diagnostics);
+    spaces::check(&nodes, &mut diagnostics);
+    let root = root::choose(graphs, &collected, &nodes, output, &conversions, &mut diagnostics);
+    // A node that could not be resolved is missing, so every index would be off: there is no partial result.
+    match (nodes.into_iter().collect::<Option<Vec<Node>>>(), root) {
+        (Some(nodes), Some(root)) if !has_errors(&diagnostics) => (Some(Woven { nodes, root }), diagnostics),
+        _ => (None, diagnostics),
+    }
+}

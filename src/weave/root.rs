@@ -1,0 +1,263 @@
+//! What the fragment shader writes.
+
+use std::rc::Rc;
+
+use super::collect::{Collected, suggest};
+use super::resolve::is_lamp;
+use super::{Node, is_lit, is_surface};
+use crate::compile::{NamedGraph, Output};
+use crate::diagnostic::{Diagnostic, Place};
+use crate::semantic::{Chain, Conversions, Kind, Meaning, Shape, Type};
+
+/// What is written.
+pub enum Root {
+    /// A surface's radiance: summed over lights, ambient part once.
+    Surface {
+        /// Index of the node.
+        node: usize,
+    },
+    /// A value as a colour.
+    Value {
+        /// Index of the node.
+        node: usize,
+        /// Name of the output.
+        output: String,
+        /// Conversions to a colour.
+        chain: Rc<Chain>,
+    },
+    /// Sum of what these lights deliver after these shadows, facing the light.
+    Irradiance {
+        /// Light and last nodes before the picture.
+        lights: Vec<(usize, Vec<usize>)>,
+    },
+    /// Product of the shadows on a light.
+    Visibility {
+        /// The light.
+        light: usize,
+        /// Its shadows.
+        shadows: Vec<usize>,
+    },
+    /// The shading normal: of the surface with this index if it has one, else the mesh's.
+    Normal {
+        /// Index of a surface node.
+        node: Option<usize>,
+    },
+    /// Distance along the view axis.
+    Depth,
+}
+
+pub(crate) fn choose(
+    graphs: &[NamedGraph],
+    collected: &Collected,
+    nodes: &[Option<Node>],
+    output: &Output,
+    conversions: &Conversions,
+    out: &mut Vec<Diagnostic>,
+) -> Option<Root> {
+    match output {
+        Output::Depth => Some(Root::Depth),
+        Output::Visibility(light) | Output::Irradiance(light) => {
+            let light = find_light(collected, nodes, light, out)?;
+            let shadows = shadows_of(collected, nodes, light);
+            Some(match output {
+                Output::Visibility(_) => Root::Visibility { light, shadows },
+                _ => Root::Irradiance { lights: vec![(light, shadows)] },
+            })
+        }
+        Output::Radiance => seen(graphs, collected, nodes, conversions, out),
+        Output::Normal => {
+            let root = seen(graphs, collected, nodes, conversions, out)?;
+            Some(Root::Normal { node: if let Root::Surface { node } = root { Some(node) } else { None } })
+        }
+    }
+}
+
+/// Every shadow of a light that feeds something seen, or that ends its program.
+fn shadows_of(collected: &Collected, nodes: &[Option<Node>], light: usize) -> Vec<usize> {
+    let mut shadows: Vec<usize> = Vec::new();
+    for (node, found) in nodes.iter().zip(&collected.nodes) {
+        let lit = found.definition.as_deref().is_some_and(|d| is_lit(d) || is_lamp(d));
+        if let Some(above) = node.as_ref().filter(|_| lit).and_then(|n| n.lights.get(&light)) {
+            shadows.extend(above);
+        }
+    }
+    shadows.sort_unstable();
+    shadows.dedup();
+    shadows
+}
+
+fn find_light(collected: &Collected, nodes: &[Option<Node>], name: &str, out: &mut Vec<Diagnostic>) -> Option<usize> {
+    let lights: Vec<usize> =
+        (0..nodes.len()).filter(|i| nodes[*i].as_ref().is_some_and(|n| n.lights.contains_key(i))).collect();
+    let id = |i: &usize| collected.nodes[*i].id.as_str();
+    let by = |test: &dyn Fn(&str) -> bool| {
+        let found: Vec<usize> = lights.iter().copied().filter(|i| test(id(i))).collect();
+        if let [one] = found[..] { Some(one) } else { None }
+    };
+    let graph = |i: &str| i.split_once('/').is_some_and(|(graph, _)| graph == name);
+    let last = |i: &str| i.rsplit('/').next() == Some(name);
+    let found = by(&|i| i == name).or_else(|| by(&graph)).or_else(|| by(&last));
+    if found.is_none() {
+        let names: Vec<&str> = lights.iter().map(id).collect();
+        let error = Diagnostic::error("ST0219", format!("there is no light called `{name}`"), Place::default());
+        out.push(suggest(error, name, &names, "the lights are"));
+    }
+    found
+}
+
+/// What is seen: the exported node of the one program that has a surface, or else of the only program.
+fn seen(
+    graphs: &[NamedGraph],
+    collected: &Collected,
+    nodes: &[Option<Node>],
+    conversions: &Conversions,
+    out: &mut Vec<Diagnostic>,
+) -> Option<Root> {
+    let mut ends: Vec<(usize, Option<String>)> = Vec::new();
+    for (index, named) in graphs.iter().enumerate() {
+        ends.extend(exports(named, index, collected, out)?);
+    }
+    let is = |i: usize, what: fn(&crate::node::Definition) -> bool| {
+        collected.nodes[i].definition.as_deref().is_some_and(what)
+    };
+    let surfaces: Vec<&(usize, Option<String>)> = ends.iter().filter(|(i, _)| is(*i, is_surface)).collect();
+    let values: Vec<&(usize, Option<String>)> =
+        ends.iter().filter(|(i, _)| !is(*i, is_surface) && !is(*i, is_lamp)).collect();
+    let shown = if surfaces.is_empty() { &values } else { &surfaces };
+    match shown[..] {
+        [(node, port)] => {
+            for (other, _) in values.iter().filter(|(i, _)| i != node) {
+                let message = format!("`{}` feeds nothing and is left out", collected.nodes[*other].id);
+                let help = "link it to something, or name it as the graph's `output`";
+                out.push(Diagnostic::warning("ST0220", message, collected.nodes[*other].place.clone()).help(help));
+            }
+            finish(*node, port.as_deref(), collected, nodes, conversions, out)
+        }
+        [] => lamps_alone(&ends, collected, nodes, out),
+        [(first, _), ..] => {
+            let names: Vec<String> = shown.iter().map(|(i, _)| format!("`{}`", collected.nodes[*i].id)).collect();
+            let message = format!("{} are all left without a follower: which one is seen?", names.join(", "));
+            let help = format!(
+                "say `output: \"{}\"`, or combine them with `mix_surface` or `add_surface`",
+                collected.nodes[*first].id
+            );
+            out.push(Diagnostic::error("ST0221", message, collected.nodes[*first].place.clone()).help(help));
+            None
+        }
+    }
+}
+
+/// The nodes that a graph exports: the one that it names, or those that feed nothing.
+fn exports(
+    named: &NamedGraph,
+    index: usize,
+    collected: &Collected,
+    out: &mut Vec<Diagnostic>,
+) -> Option<Vec<(usize, Option<String>)>> {
+    let own: Vec<usize> = (0..collected.nodes.len()).filter(|i| collected.nodes[*i].graph == index).collect();
+    let feeds: std::collections::BTreeSet<usize> = collected.links.iter().map(|l| l.from).collect();
+    let Some(end) = &named.graph.output else {
+        return Some(
+            own.into_iter()
+                .filter(|i| !feeds.contains(i) || is_end_lamp(*i, index, collected))
+                .map(|i| (i, None))
+                .collect(),
+        );
+    };
+    let found = own.iter().copied().find(|i| {
+        super::lights::short(&collected.nodes[*i].id) == end.node || collected.nodes[*i].id.ends_with(&end.node)
+    });
+    if found.is_none() {
+        let message = format!("the graph's output `{end}` is not among its nodes");
+        let help = "name a node that is there and not muted, or leave `output` out";
+        out.push(Diagnostic::error("ST0222", message, named.graph.file_place()).help(help));
+        return None;
+    }
+    found.map(|i| vec![(i, end.port.clone())])
+}
+
+/// A lamp that feeds only other graphs ends its own program.
+fn is_end_lamp(node: usize, graph: usize, collected: &Collected) -> bool {
+    collected.nodes[node].definition.as_deref().is_some_and(is_lamp)
+        && collected.links.iter().filter(|l| l.from == node).all(|l| collected.nodes[l.to].graph != graph)
+}
+
+fn finish(
+    index: usize,
+    port: Option<&str>,
+    collected: &Collected,
+    nodes: &[Option<Node>],
+    conversions: &Conversions,
+    out: &mut Vec<Diagnostic>,
+) -> Option<Root> {
+    let node = nodes[index].as_ref()?;
+    if is_surface(&node.definition) && port.is_none() {
+        if is_lit(&node.definition) && node.lights.is_empty() && !node.definition.header.category.is_empty() {
+            let message = format!("no light shines on `{}`: only its ambient part is seen", node.id);
+            let help = "give a light graph as well: `shadetree generate LIGHT.ron SURFACE.ron`";
+            out.push(Diagnostic::warning("ST0223", message, node.place.clone()).help(help));
+        }
+        return Some(Root::Surface { node: index });
+    }
+    let Some(output) = node.definition.main.outputs.iter().find(|o| port.is_none_or(|p| p == o.name)) else {
+        let names: Vec<&str> = node.definition.main.outputs.iter().map(|o| o.name.as_str()).collect();
+        let wanted = port.unwrap_or_default();
+        let error = Diagnostic::error(
+            "ST0222",
+            format!("`{}` has no output `{wanted}`", node.id),
+            collected.nodes[index].place.clone(),
+        );
+        out.push(suggest(error, wanted, &names, "it has"));
+        return None;
+    };
+    let color = Type::new(Meaning::of(Kind::Color), Shape::F32(3));
+    let number = Type::new(Meaning::of(Kind::Number), Shape::F32(3));
+    let ty = node.output_type(output);
+    if let Some(chain) = conversions.chain(&ty, &color).or_else(|| conversions.chain(&ty, &number)) {
+        return Some(Root::Value { node: index, output: output.name.clone(), chain });
+    }
+    // Anything numeric can be looked at: what is missing is zero.
+    let template = match ty.shape.width() {
+        Some(2) => "vec3f($, 0.0)",
+        Some(4) => "$.xyz",
+        _ => {
+            let message = format!("`{}.{}` is {ty} and cannot be shown", node.id, output.name);
+            out.push(
+                Diagnostic::error("ST0224", message, node.place.clone())
+                    .help("link it to a node that makes a colour of it"),
+            );
+            return None;
+        }
+    };
+    let step = crate::semantic::Step { template, to: number, label: "shown" };
+    Some(Root::Value { node: index, output: output.name.clone(), chain: Rc::new(Chain { cost: 0, steps: vec![step] }) })
+}
+
+/// Lights without anything to shine on show what they deliver.
+fn lamps_alone(
+    ends: &[(usize, Option<String>)],
+    collected: &Collected,
+    nodes: &[Option<Node>],
+    out: &mut Vec<Diagnostic>,
+) -> Option<Root> {
+    let mut lights: std::collections::BTreeMap<usize, Vec<usize>> = std::collections::BTreeMap::new();
+    for (end, _) in ends {
+        for (light, shadows) in nodes[*end].as_ref().map(|n| &n.lights).into_iter().flatten() {
+            lights.entry(*light).or_default().extend(shadows);
+        }
+    }
+    if lights.is_empty() {
+        if !collected.nodes.iter().any(|n| n.definition.is_none()) {
+            let message = "there is nothing to see: the graph has no nodes";
+            out.push(
+                Diagnostic::error("ST0225", message, Place::default()).help("add a surface node, such as `lambert`"),
+            );
+        }
+        return None;
+    }
+    for shadows in lights.values_mut() {
+        shadows.sort_unstable();
+        shadows.dedup();
+    }
+    Some(Root::Irradiance { lights: lights.into_iter().collect() })
+}

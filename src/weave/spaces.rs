@@ -1,0 +1,36 @@
+//! What a light must have so that maps can be made in its space.
+
+use std::collections::BTreeSet;
+
+use super::{Node, Wire, is_shadow};
+use crate::diagnostic::Diagnostic;
+
+/// Checks every light that carries a shadow with a map: it has a projection, and that comes from values, not links,
+/// because the passes run before the shader does.
+pub(crate) fn check(nodes: &[Option<Node>], out: &mut Vec<Diagnostic>) {
+    let mut checked: BTreeSet<usize> = BTreeSet::new();
+    for node in nodes.iter().flatten() {
+        if !is_shadow(&node.definition) || !node.inputs.values().any(|w| matches!(w, Wire::Space | Wire::Map)) {
+            continue;
+        }
+        for &light in node.lights.keys() {
+            let Some(lamp) = nodes[light].as_ref().filter(|_| checked.insert(light)) else { continue };
+            let Some(space) = &lamp.definition.header.space else {
+                let message = format!("`{}` ({}) cannot carry the shadow `{}`", lamp.id, lamp.definition.kind, node.id);
+                let help = "maps need a light with a `space:` line, such as `spot_light` or `directional_light`";
+                out.push(Diagnostic::error("ST0226", message, node.place.clone()).help(help));
+                continue;
+            };
+            for input in &space.inputs {
+                if !matches!(lamp.inputs.get(input), Some(Wire::Value(_))) {
+                    let message = format!(
+                        "`{input}` of the light `{}` must be a value, because its maps are made from it",
+                        lamp.id
+                    );
+                    let help = format!("remove the link to `{input}` and set it under `params`, or remove the shadow");
+                    out.push(Diagnostic::error("ST0227", message, lamp.place.clone().port(input)).help(help));
+                }
+            }
+        }
+    }
+}
