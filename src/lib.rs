@@ -11,6 +11,12 @@ pub mod plan;
 pub mod module;
 pub mod emit;
 pub mod compile;
+pub mod verify;
+pub mod export;
+pub mod reflect;
 pub mod scene;
 #[cfg(feature = "render")]
 pub mod render;
+pub mod explain;
+pub mod report;
+pub mod cli;

@@ -1,0 +1,57 @@
+//! `check`: is everything in order?
+
+use std::path::PathBuf;
+
+use clap::Args;
+
+use super::context::Context;
+use super::exit::{Exit, Outcome};
+use super::load::Loader;
+use super::output;
+use super::watch::watch;
+use super::weave::{Input, Weaver};
+use crate::compile::Options;
+
+/// Report every mistake in graphs or a scene, without writing anything
+#[derive(Args, Debug)]
+#[command(after_help = "Examples:
+  shadetree check graphs/scenes/car.ron
+  shadetree check spot_vsm.ron bumpy_glass.ron
+  shadetree check --format json spot.ron matte.ron    # one JSON object a line on stderr")]
+pub(super) struct Check {
+    /// Graph files that are used together, or one scene file; `-` is stdin
+    #[arg(required = true, value_name = "FILE")]
+    files: Vec<PathBuf>,
+    /// Folder with further nodes; may be given several times
+    #[arg(long, value_name = "DIR")]
+    nodes: Vec<PathBuf>,
+    /// Check again whenever a file changes
+    #[arg(long)]
+    watch: bool,
+}
+
+impl Check {
+    pub(super) fn run(&self, context: &Context) -> Outcome {
+        watch(context, self.watch, &self.files, |loader| self.once(context, loader))
+    }
+
+    fn once(&self, context: &Context, loader: &Loader) -> Outcome {
+        let (catalog, found) = loader.catalog(&self.nodes)?;
+        // Here the person asks about everything, so a broken node file counts.
+        let broken = context.report(&found);
+        let weaver = Weaver { context, loader, catalog: &catalog, options: Options::default(), set: &[] };
+        let shaders = match weaver.read(&self.files)? {
+            Input::Graphs(graphs) => vec![weaver.weave_graphs(graphs)?],
+            Input::Scene(scene, file) => weaver.weave_scene(&scene, &file)?,
+        };
+        if context.is_json() {
+            let summary = serde_json::json!({ "schema": 1, "ok": !broken, "shaders": shaders.len() });
+            output::print(format!("{summary}\n").as_bytes())?;
+        }
+        if broken {
+            return Ok(Exit::Input);
+        }
+        context.say(&format!("no errors; {} shader{}", shaders.len(), if shaders.len() == 1 { "" } else { "s" }));
+        Ok(Exit::Done)
+    }
+}

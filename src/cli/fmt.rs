@@ -1,0 +1,72 @@
+//! `fmt`: files in canonical form.
+
+use std::path::{Path, PathBuf};
+
+use clap::Args;
+
+use super::context::Context;
+use super::exit::{Exit, Failure, Outcome};
+use super::load::{Document, Loader};
+use super::output;
+use crate::diagnostic::{Diagnostic, Place};
+use crate::{graph, scene};
+
+/// Write graph and scene files in canonical form
+#[derive(Args, Debug)]
+#[command(after_help = "Examples:
+  shadetree fmt graphs/lights/*.ron
+  shadetree fmt --check graphs/lights/*.ron     # exit 1 if a file would change
+  shadetree fmt - < a.ron                       # from stdin to stdout")]
+pub(super) struct Fmt {
+    /// Files to rewrite; `-` goes from stdin to stdout
+    #[arg(required = true, value_name = "FILE")]
+    files: Vec<PathBuf>,
+    /// Change nothing, but say which files would change
+    #[arg(long)]
+    check: bool,
+}
+
+impl Fmt {
+    pub(super) fn run(&self, context: &Context) -> Outcome {
+        let mut exit = Exit::Done;
+        for path in &self.files {
+            // One bad file must not keep the others from being written.
+            let result = self.one(context, path).unwrap_or_else(|failure| {
+                context.report(&failure.diagnostics);
+                failure.exit
+            });
+            if result != Exit::Done {
+                exit = result;
+            }
+        }
+        Ok(exit)
+    }
+
+    fn one(&self, context: &Context, path: &Path) -> Outcome {
+        let loader = Loader::default();
+        let (text, document) = loader.document_with_text(path)?;
+        let failed = context.report(&loader.take_found());
+        // A file with errors is left alone: rewriting it could lose what was not understood.
+        let Some(document) = document.filter(|_| !failed) else { return Ok(Exit::Input) };
+        let canonical = match document {
+            Document::Graph(graph) => graph::write(&graph),
+            Document::Scene(scene) => scene::write(&scene),
+        };
+        let same = canonical == text.text;
+        if self.check {
+            if same {
+                return Ok(Exit::Done);
+            }
+            let place = Place::file(path.display().to_string());
+            let diagnostic = Diagnostic::error("ST0518", "the file is not in canonical form", place);
+            return Err(Failure::new(Exit::Input, diagnostic.help("run `shadetree fmt` on it")));
+        }
+        if output::is_dash(path) {
+            output::print(canonical.as_bytes())?;
+        } else if !same {
+            output::write(path, canonical.as_bytes())?;
+            context.detail(&format!("rewrote {}", path.display()));
+        }
+        Ok(Exit::Done)
+    }
+}

@@ -1,0 +1,281 @@
+//! From file names to graphs and scenes. Every file that is read is remembered, so that `--watch` knows what to watch.
+
+use std::cell::RefCell;
+use std::collections::BTreeSet;
+use std::io::Read;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use super::exit::{Exit, Failure};
+use super::output::is_dash;
+use crate::compile::NamedGraph;
+use crate::diagnostic::{Diagnostic, Place, SourceText, has_errors};
+use crate::graph::{self, Graph};
+use crate::node::Catalog;
+use crate::ron::MAX_BYTES;
+use crate::scene::{self, Scene};
+
+/// Most node files that folders given by `--nodes` may hold.
+const MAX_NODE_FILES: usize = 10_000;
+/// Deepest folder below one given by `--nodes`.
+const MAX_DEPTH: usize = 16;
+
+/// A file that a person gave, by what its root says it is.
+#[derive(Debug)]
+pub(super) enum Document {
+    /// `Graph(...)`
+    Graph(Box<Graph>),
+    /// `Scene(...)`
+    Scene(Box<Scene>),
+}
+
+/// Reads files and collects what is wrong with them.
+#[derive(Debug, Default)]
+pub(super) struct Loader {
+    touched: RefCell<BTreeSet<PathBuf>>,
+    found: RefCell<Vec<Diagnostic>>,
+}
+
+impl Loader {
+    /// Files read so far.
+    pub(super) fn touched(&self) -> BTreeSet<PathBuf> {
+        self.touched.borrow().clone()
+    }
+
+    /// Takes the diagnostics so far.
+    pub(super) fn take_found(&self) -> Vec<Diagnostic> {
+        std::mem::take(&mut self.found.borrow_mut())
+    }
+
+    fn keep<T>(&self, (value, found): (Option<T>, Vec<Diagnostic>)) -> Option<T> {
+        let failed = has_errors(&found);
+        self.found.borrow_mut().extend(found);
+        value.filter(|_| !failed)
+    }
+
+    /// Reads a file of bytes, at most 64 MiB; `-` is stdin.
+    pub(super) fn bytes(&self, path: &Path) -> Result<Vec<u8>, Failure> {
+        let name = path.display().to_string();
+        let fail = |code, exit, message: String, help: &str| {
+            Failure::new(exit, Diagnostic::error(code, message, Place::file(&*name)).help(help))
+        };
+        let unreadable = |e: std::io::Error| fail("ST0501", Exit::Io, format!("cannot read: {e}"), "check the path and its permissions");
+        let too_large = || {
+            let message = format!("the file is larger than {} MiB", MAX_BYTES >> 20);
+            fail("ST0503", Exit::Input, message, "split it into subgraphs")
+        };
+        let mut bytes = Vec::new();
+        // One byte more than allowed tells a file that grows, or a device without end, from one that fits.
+        let limit = MAX_BYTES as u64 + 1;
+        if is_dash(path) {
+            std::io::stdin().lock().take(limit).read_to_end(&mut bytes).map_err(unreadable)?;
+        } else {
+            self.touched.borrow_mut().insert(path.to_path_buf());
+            let meta = std::fs::metadata(path).map_err(unreadable)?;
+            if meta.is_dir() {
+                return Err(fail("ST0502", Exit::Io, "this is a folder, not a file".into(), "name the files in it"));
+            }
+            if meta.len() > MAX_BYTES as u64 {
+                return Err(too_large());
+            }
+            std::fs::File::open(path).and_then(|f| f.take(limit).read_to_end(&mut bytes)).map_err(unreadable)?;
+        }
+        if bytes.len() > MAX_BYTES { Err(too_large()) } else { Ok(bytes) }
+    }
+
+    /// Reads a text.
+    pub(super) fn text(&self, path: &Path) -> Result<Arc<SourceText>, Failure> {
+        let name = path.display().to_string();
+        match String::from_utf8(self.bytes(path)?) {
+            Ok(text) => Ok(SourceText::new(name, text)),
+            Err(error) => {
+                let message = format!("the file is not text: byte {} is not UTF-8", error.utf8_error().valid_up_to());
+                Err(vec![Diagnostic::error("ST0504", message, Place::file(name)).help("save it as UTF-8")].into())
+            }
+        }
+    }
+
+    /// Reads a graph or scene, told apart by the name of the root. None if it has errors, which are kept.
+    pub(super) fn document(&self, path: &Path) -> Result<Option<Document>, Failure> {
+        Ok(self.document_with_text(path)?.1)
+    }
+
+    /// As [`Self::document`], with the text that it was read from.
+    pub(super) fn document_with_text(&self, path: &Path) -> Result<(Arc<SourceText>, Option<Document>), Failure> {
+        let source = self.text(path)?;
+        let document = match root_name(&source.text) {
+            "Scene" => self.keep(scene::read(&source)).map(|s| Document::Scene(Box::new(s))),
+            // Also for what is neither: the reader of graphs says what is missing.
+            _ => self.keep(graph::read(&source)).map(|g| Document::Graph(Box::new(g))),
+        };
+        Ok((source, document))
+    }
+
+    /// The graph with its subgraphs put in place. None if there are errors, which are kept.
+    pub(super) fn flatten(&self, graph: &Graph) -> Option<Graph> {
+        let load = |path: &str, from: &str| -> Result<(String, Arc<Graph>), Vec<Diagnostic>> {
+            let full = relative(path, from);
+            let source = self.text(&full).map_err(|f| f.diagnostics)?;
+            let (graph, found) = graph::read(&source);
+            match graph {
+                Some(graph) if !has_errors(&found) => {
+                    self.found.borrow_mut().extend(found);
+                    Ok((canonical(&full), Arc::new(graph)))
+                }
+                _ => Err(found),
+            }
+        };
+        self.keep(graph::expand(graph, &load))
+    }
+
+    /// Reads and flattens a graph file under a name. None if it has errors, which are kept.
+    pub(super) fn named_graph(&self, path: &Path, name: &str) -> Option<NamedGraph> {
+        let read = self.document(path);
+        let graph = match read {
+            Ok(Some(Document::Graph(graph))) => graph,
+            Ok(Some(Document::Scene(_))) => {
+                let place = Place::file(path.display().to_string());
+                let message = "this is a scene, but a graph is needed here";
+                self.found.borrow_mut().push(Diagnostic::error("ST0507", message, place).help("name a `Graph(...)` file"));
+                return None;
+            }
+            Ok(None) => return None,
+            Err(failure) => {
+                self.found.borrow_mut().extend(failure.diagnostics);
+                return None;
+            }
+        };
+        let graph = self.flatten(&graph)?;
+        Some(NamedGraph { name: name.to_owned(), graph, set: Default::default() })
+    }
+
+    /// The catalogue with the nodes of user folders. What is wrong with them is returned apart: it stops nothing.
+    pub(super) fn catalog(&self, folders: &[PathBuf]) -> Result<(Catalog, Vec<Diagnostic>), Failure> {
+        let mut catalog = Catalog::embedded();
+        let mut found = Vec::new();
+        for folder in folders {
+            let files = self.wgsl_files(folder)?;
+            // Libraries first: nodes are checked against them.
+            let is_library = |p: &PathBuf| p.parent().and_then(Path::file_name).is_some_and(|n| n == "lib");
+            let (libraries, nodes): (Vec<_>, Vec<_>) = files.into_iter().partition(is_library);
+            for (path, library) in libraries.iter().map(|p| (p, true)).chain(nodes.iter().map(|p| (p, false))) {
+                let name = path.display().to_string();
+                match self.text(path) {
+                    Ok(source) if library => found.extend(catalog.add_library(&name, &source.text)),
+                    Ok(source) => found.extend(catalog.add_file(&name, &source.text)),
+                    Err(failure) => found.extend(failure.diagnostics),
+                }
+            }
+        }
+        Ok((catalog, found))
+    }
+
+    fn wgsl_files(&self, folder: &Path) -> Result<Vec<PathBuf>, Failure> {
+        let mut files = Vec::new();
+        let mut open = vec![(folder.to_path_buf(), 0)];
+        while let Some((folder, depth)) = open.pop() {
+            self.touched.borrow_mut().insert(folder.clone());
+            let unreadable = |e: std::io::Error| {
+                let place = Place::file(folder.display().to_string());
+                let diagnostic = Diagnostic::error("ST0501", format!("cannot read the folder: {e}"), place);
+                Failure::new(Exit::Io, diagnostic.help("--nodes takes a folder of .wgsl files"))
+            };
+            for entry in std::fs::read_dir(&folder).map_err(unreadable)? {
+                let path = entry.map_err(unreadable)?.path();
+                if path.is_dir() && depth < MAX_DEPTH {
+                    open.push((path, depth + 1));
+                } else if path.extension().is_some_and(|e| e == "wgsl") && files.len() < MAX_NODE_FILES {
+                    files.push(path);
+                }
+            }
+        }
+        files.sort();
+        Ok(files)
+    }
+}
+
+/// A path as a file mentions it, seen from where the program runs.
+pub(super) fn relative(path: &str, mentioned_in: &str) -> PathBuf {
+    let folder = match Path::new(mentioned_in).parent() {
+        Some(folder) if mentioned_in != "-" => folder,
+        _ => Path::new(""),
+    };
+    folder.join(path)
+}
+
+/// One spelling per file, to notice that two paths lead to the same one.
+fn canonical(path: &Path) -> String {
+    std::fs::canonicalize(path).unwrap_or_else(|_| path.to_path_buf()).display().to_string()
+}
+
+/// Names for graphs by the stems of their files, each once.
+pub(super) fn stems(paths: &[PathBuf]) -> Vec<String> {
+    let mut names: Vec<String> = Vec::new();
+    for path in paths {
+        let stem = match path.file_stem() {
+            Some(stem) if !is_dash(path) => stem.to_string_lossy().into_owned(),
+            _ => "stdin".into(),
+        };
+        let taken = |name: &String| names.contains(name);
+        let name = (2..).map(|n| format!("{stem}_{n}")).find(|n| !taken(n)).filter(|_| taken(&stem));
+        names.push(name.unwrap_or(stem));
+    }
+    names
+}
+
+/// The name before the first bracket: what kind of file a text is. Empty if there is none.
+fn root_name(text: &str) -> &str {
+    let mut rest = text.trim_start_matches('\u{feff}').trim_start();
+    loop {
+        if let Some(after) = rest.strip_prefix("//").or_else(|| rest.strip_prefix("#!")) {
+            rest = after.split_once('\n').map_or("", |(_, next)| next).trim_start();
+        } else if let Some(after) = rest.strip_prefix("/*") {
+            let mut depth = 1;
+            let mut at = 0;
+            let bytes = after.as_bytes();
+            while depth > 0 && at < bytes.len() {
+                match (bytes[at], bytes.get(at + 1)) {
+                    (b'/', Some(b'*')) => (depth, at) = (depth + 1, at + 2),
+                    (b'*', Some(b'/')) => (depth, at) = (depth - 1, at + 2),
+                    _ => at += 1,
+                }
+            }
+            rest = after.get(at..).unwrap_or_default().trim_start();
+        } else {
+            let end = rest.find(|c: char| !c.is_alphanumeric() && c != '_').unwrap_or(rest.len());
+            return &rest[..end];
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_root_is_found_behind_comments() {
+        assert_eq!(root_name("\u{feff}// a\n/* b /* c */ */ #![enable(x)]\nScene(version: 1)"), "Scene");
+        assert_eq!(root_name("  Graph (\n)"), "Graph");
+        assert_eq!((root_name(""), root_name("/* open"), root_name("{}")), ("", "", ""));
+    }
+
+    #[test]
+    fn equal_stems_are_told_apart() {
+        let paths = ["a/x.ron", "b/x.ron", "-", "c/x.ron"].map(PathBuf::from);
+        assert_eq!(stems(&paths), ["x", "x_2", "stdin", "x_3"]);
+    }
+
+    #[test]
+    fn folders_and_missing_files_are_named() {
+        let loader = Loader::default();
+        let folder = tempfile::tempdir().expect("a folder");
+        let failure = loader.bytes(folder.path()).expect_err("a folder");
+        assert_eq!((failure.exit, failure.diagnostics[0].code), (Exit::Io, "ST0502"));
+        let failure = loader.bytes(&folder.path().join("none")).expect_err("missing");
+        assert_eq!((failure.exit, failure.diagnostics[0].code), (Exit::Io, "ST0501"));
+        let binary = folder.path().join("b.ron");
+        std::fs::write(&binary, [0xff, 0xfe]).expect("written");
+        let failure = loader.text(&binary).expect_err("binary");
+        assert_eq!((failure.exit, failure.diagnostics[0].code), (Exit::Input, "ST0504"));
+    }
+}

@@ -1,0 +1,229 @@
+//! One picture: geometry and surroundings of the scene, shaders, the job, the file.
+
+use std::collections::BTreeMap;
+use std::path::Path;
+use std::time::Duration;
+
+use super::context::Context;
+use super::exit::{Exit, Failure, Outcome};
+use super::load::{Document, Loader, relative};
+use super::output;
+use super::render::{Aov, Render, Samples, adapter_options};
+use super::settings::choose;
+use super::weave::{Input, Shader, Weaver};
+use crate::compile::{Options, Output};
+use crate::diagnostic::{Diagnostic, Place, SourceText};
+use crate::render::{self, ColorFormat, Draw, Gpu, Job, Picture, RenderError, Surroundings, SurroundingsLevel, Texels};
+use crate::scene::{self, Environment, Mesh, Scene, Shape, environment};
+
+/// What graphs are shown on when no scene is given.
+const STAGE: &str = include_str!("stage.ron");
+
+pub(super) fn once(command: &Render, context: &Context, loader: &Loader, gpu: &mut Option<Gpu>) -> Outcome {
+    let (catalog, found) = loader.catalog(&command.nodes)?;
+    context.report(&found);
+    let mut options = Options::default();
+    if let Aov::Output(output) = &command.aov {
+        options.output = output.clone();
+    }
+    choose(&command.option, &mut options);
+    let weaver = Weaver { context, loader, catalog: &catalog, options, set: &command.set };
+    let (scene, file, shaders) = shaders(command, &weaver)?;
+    let meshes = meshes(&scene, &file, loader)?;
+    let surroundings = surroundings(&scene.environment, &file, loader)?;
+    let mut draws = Vec::new();
+    for (object, mesh) in scene.objects.iter().zip(&meshes) {
+        let own = shaders.iter().find(|s| s.objects.is_empty() || s.objects.contains(&object.name));
+        if let Some(shader) = own {
+            draws.push(Draw {
+                mesh,
+                object_to_world: object.transform.matrix(),
+                casts: object.casts,
+                receives: object.receives,
+                shader: &shader.compiled,
+                values: BTreeMap::new(),
+            });
+        }
+    }
+    let exr = command.output.extension().is_some_and(|e| e.eq_ignore_ascii_case("exr"));
+    let images = |path: &str, base: &str| image(loader, path, base);
+    let job = Job {
+        draws,
+        camera: scene.camera.camera(),
+        surroundings: Some(&surroundings).filter(|_| command.aov == Aov::Output(Output::Radiance)),
+        size: command.size,
+        samples: if command.samples == Samples::Four { 4 } else { 1 },
+        time: 0.0,
+        images: &images,
+        output: if exr { ColorFormat::Float } else { ColorFormat::Half },
+    };
+    let progress = progress(context);
+    let result = draw(command, &job, gpu);
+    progress.finish_and_clear();
+    // A lost device is opened anew on the next run of --watch.
+    let (size, pixels, adapter, messages) = result.inspect_err(|_| *gpu = None).map_err(failure)?;
+    for message in messages {
+        context.say(&message);
+    }
+    let notes = [("Software".to_owned(), format!("shadetree {}", env!("CARGO_PKG_VERSION"))), ("Adapter".into(), adapter)];
+    let bytes = match exr {
+        true => render::image_file::encode_exr(size, &pixels, &notes),
+        false => {
+            let tone = match command.aov {
+                Aov::Output(Output::Radiance) => render::image_file::ToneCurve::Filmic,
+                _ => render::image_file::ToneCurve::None,
+            };
+            let display = render::image_file::Display { tone, ..Default::default() };
+            render::image_file::encode_png(size, &pixels, &display, &notes)
+        }
+    };
+    let bytes = bytes.map_err(|e| failure(RenderError::Job(e.to_string())))?;
+    output::write(&command.output, &bytes)?;
+    context.detail(&format!("wrote {}", command.output.display()));
+    Ok(Exit::Done)
+}
+
+type Drawn = ((u32, u32), Vec<[f32; 4]>, String, Vec<String>);
+
+fn draw(command: &Render, job: &Job<'_>, gpu: &mut Option<Gpu>) -> Result<Drawn, RenderError> {
+    let gpu = match gpu {
+        Some(gpu) => gpu,
+        None => gpu.insert(Gpu::new(&adapter_options(command.adapter.as_deref()))?),
+    };
+    if let Aov::Map(light) = &command.aov {
+        let map = gpu.map(job, light, 0)?;
+        return Ok((map.size, map.pixels, gpu.adapter().name.clone(), map.messages));
+    }
+    let frame = gpu.render(job)?;
+    Ok((frame.size, frame.pixels, frame.adapter.name, frame.messages))
+}
+
+/// The scene, the file that its paths count from, and a shader for each of its objects.
+fn shaders(command: &Render, weaver: &Weaver<'_>) -> Result<(Scene, std::path::PathBuf, Vec<Shader>), Failure> {
+    match weaver.read(&command.files)? {
+        Input::Scene(scene, file) => {
+            if command.scene.is_some() {
+                return Err(Failure::usage("--scene is for graphs, but a scene was given", "leave --scene out"));
+            }
+            let shaders = weaver.weave_scene(&scene, &file)?;
+            Ok((*scene, file, shaders))
+        }
+        Input::Graphs(graphs) => {
+            let Some(file) = &command.scene else {
+                let (stage, found) = scene::read(&SourceText::new("stage.ron", STAGE));
+                weaver.context.report(&found);
+                let stage = stage.ok_or_else(|| Failure::from(Vec::new()))?;
+                return Ok((stage, "stage.ron".into(), vec![weaver.weave_graphs(graphs)?]));
+            };
+            let document = weaver.loader.document(file)?;
+            weaver.context.report(&weaver.loader.take_found());
+            let scene = match document {
+                Some(Document::Scene(scene)) => *scene,
+                Some(Document::Graph(_)) => {
+                    return Err(Failure::usage("--scene names a graph, not a scene", "name a `Scene(...)` file"));
+                }
+                None => return Err(Vec::new().into()),
+            };
+            let mut all = graphs;
+            super::settings::apply(weaver.set, &mut all)?;
+            // Graphs that are a whole shader bring their own light; others take those of the scene.
+            let alone = weaver.try_weave(&all, Vec::new()).0;
+            let shader = match alone {
+                Some(shader) if !shader.compiled.plan.lights.is_empty() || scene.lights.is_empty() => shader,
+                _ => {
+                    let mut with_lights = weaver.lights(&scene, file)?;
+                    with_lights.append(&mut all);
+                    weaver.weave(&with_lights, Vec::new())?
+                }
+            };
+            Ok((scene, file.clone(), vec![shader]))
+        }
+    }
+}
+
+fn meshes(scene: &Scene, file: &Path, loader: &Loader) -> Result<Vec<Mesh>, Failure> {
+    let mut meshes = Vec::new();
+    for object in &scene.objects {
+        meshes.push(match &object.shape {
+            Shape::Obj(reference) => {
+                let source = loader.text(&relative(&reference.path, &file.display().to_string()))?;
+                scene::from_obj(&source)?
+            }
+            shape => shape.mesh().unwrap_or_default(),
+        });
+    }
+    Ok(meshes)
+}
+
+fn surroundings(of: &Environment, file: &Path, loader: &Loader) -> Result<Surroundings, Failure> {
+    let image = match of {
+        Environment::Image { image, .. } => {
+            let bytes = loader.bytes(&relative(&image.path, &file.display().to_string()))?;
+            let place = image.span.clone().map_or_else(|| Place::file(&*image.path), Place::span);
+            Some(environment::decode(&bytes, &place).map_err(|d| vec![d])?)
+        }
+        _ => None,
+    };
+    let map = environment::Map::new(of, image.as_ref());
+    let level = |l: environment::Level| SurroundingsLevel {
+        width: l.width,
+        height: l.height,
+        pixels: l.pixels.into_iter().map(|[r, g, b, _]| [r, g, b]).collect(),
+    };
+    let levels = map.levels.into_iter().map(level).collect();
+    Ok(Surroundings { levels, irradiance: map.irradiance, background: true })
+}
+
+/// Decodes the image of a texture: a path as the graph gives it, relative to the file that mentions it.
+fn image(loader: &Loader, path: &str, base: &str) -> Result<Picture, String> {
+    let first = |f: Failure| f.diagnostics.first().map_or_else(String::new, |d| d.message.clone());
+    let bytes = loader.bytes(&relative(path, base)).map_err(first)?;
+    let mut reader = image::ImageReader::new(std::io::Cursor::new(bytes)).with_guessed_format().map_err(|e| e.to_string())?;
+    let mut limits = image::Limits::default();
+    limits.max_image_width = Some(16_384);
+    limits.max_image_height = Some(16_384);
+    limits.max_alloc = Some(1 << 30);
+    reader.limits(limits);
+    let decoded = reader.decode().map_err(|e| e.to_string())?;
+    let (width, height) = (decoded.width(), decoded.height());
+    let texels = match decoded {
+        image::DynamicImage::ImageRgb32F(_) | image::DynamicImage::ImageRgba32F(_) => {
+            Texels::Floats(decoded.into_rgba32f().pixels().map(|p| p.0).collect())
+        }
+        _ => Texels::Bytes(decoded.into_rgba8().pixels().map(|p| p.0).collect()),
+    };
+    Ok(Picture { width, height, texels })
+}
+
+/// A spinner that appears when rendering takes longer than two seconds.
+fn progress(context: &Context) -> indicatif::ProgressBar {
+    if !context.draws_progress() {
+        return indicatif::ProgressBar::hidden();
+    }
+    let target = indicatif::ProgressDrawTarget::hidden();
+    let bar = indicatif::ProgressBar::with_draw_target(None, target).with_message("rendering");
+    let late = bar.downgrade();
+    std::thread::spawn(move || {
+        std::thread::sleep(Duration::from_secs(2));
+        if let Some(bar) = late.upgrade().filter(|b| !b.is_finished()) {
+            bar.set_draw_target(indicatif::ProgressDrawTarget::stderr());
+            bar.enable_steady_tick(Duration::from_millis(120));
+        }
+    });
+    bar
+}
+
+fn failure(error: RenderError) -> Failure {
+    let (code, exit) = match &error {
+        RenderError::NoAdapter { .. } | RenderError::NoDevice { .. } | RenderError::Unsupported(_) => {
+            ("ST0513", Exit::NoAdapter)
+        }
+        RenderError::UnknownBackend(_) => ("ST0513", Exit::Usage),
+        RenderError::DeviceLost(_) => ("ST0514", Exit::NoAdapter),
+        RenderError::Job(message) if message.contains("has no map") => ("ST0512", Exit::Input),
+        _ => ("ST0514", Exit::Input),
+    };
+    let diagnostic = Diagnostic::error(code, error.to_string(), Place::default());
+    let help = error.help();
+    Failure::new(exit, help.into_iter().fold(diagnostic, |d, h| d.help(h)))
+}

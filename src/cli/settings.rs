@@ -1,0 +1,121 @@
+//! `NODE.PORT=VALUE` and `NODE.NAME=VALUE` on the command line.
+
+use super::exit::Failure;
+use crate::compile::{NamedGraph, Options};
+use crate::diagnostic::{Diagnostic, Place, did_you_mean};
+use crate::semantic::Value;
+
+/// `NODE.PORT=VALUE`, read by clap.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Assignment {
+    /// Node, perhaps after its graph's name and a `/`.
+    pub node: String,
+    /// Port or option.
+    pub name: String,
+    /// What is right of the `=`.
+    pub value: String,
+}
+
+impl std::str::FromStr for Assignment {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        let split = text.split_once('=').and_then(|(path, value)| Some((path.trim().rsplit_once('.')?, value.trim())));
+        match split {
+            Some(((node, name), value)) if !node.is_empty() && !name.is_empty() && !value.is_empty() => {
+                Ok(Self { node: node.into(), name: name.into(), value: value.into() })
+            }
+            _ => Err("expected NODE.NAME=VALUE, as in `spot.position=(1, 2, 3)`".into()),
+        }
+    }
+}
+
+impl Assignment {
+    /// The value: `true`, `3`, `1,2,3`, `(1, 2, 3)`; anything else is a text, as a path.
+    fn value(&self) -> Result<Value, String> {
+        let text = self.value.as_str();
+        match text {
+            "true" => return Ok(Value::Bool(true)),
+            "false" => return Ok(Value::Bool(false)),
+            _ => {}
+        }
+        if let Some(inner) = text.strip_prefix('"').and_then(|t| t.strip_suffix('"')) {
+            return Ok(Value::Text(inner.into()));
+        }
+        let tuple = text.strip_prefix('(').and_then(|t| t.strip_suffix(')'));
+        let list = tuple.unwrap_or(text);
+        let numbers: Result<Vec<f64>, _> = list.split(',').map(|x| x.trim().parse::<f64>()).collect();
+        match numbers {
+            Ok(n) if n.iter().all(|x| x.is_finite()) => Ok(Value::Numbers(n)),
+            Ok(_) => Err(format!("`{text}` is not finite")),
+            Err(_) if tuple.is_some() => Err(format!("`{text}` is not a list of numbers")),
+            Err(_) => Ok(Value::Text(text.into())),
+        }
+    }
+}
+
+/// Puts the values of `--set` into the graphs that have such a node. Ports and types are checked when compiling.
+pub(super) fn apply(assignments: &[Assignment], graphs: &mut [NamedGraph]) -> Result<(), Failure> {
+    for assignment in assignments {
+        let wrong = |message| Diagnostic::error("ST0510", message, Place::default().node(&assignment.node));
+        let value = assignment.value().map_err(|m| vec![wrong(m)])?;
+        let (graph, node) = match assignment.node.split_once('/') {
+            Some((graph, node)) if graphs.iter().any(|g| g.name == graph) => (Some(graph), node),
+            _ => (None, assignment.node.as_str()),
+        };
+        let mut found = false;
+        for named in graphs.iter_mut().filter(|g| graph.is_none_or(|name| g.name == name)) {
+            if named.graph.nodes.contains_key(node) {
+                found = true;
+                named.set.insert(format!("{node}.{}", assignment.name), value.clone());
+            }
+        }
+        if !found {
+            let nodes = || graphs.iter().flat_map(|g| g.graph.nodes.keys().map(String::as_str));
+            let diagnostic = Diagnostic::error(
+                "ST0511",
+                format!("--set names the node `{}`, which no graph has", assignment.node),
+                Place::default().node(&assignment.node),
+            );
+            let help = match did_you_mean(node, nodes()) {
+                Some(near) => format!("did you mean `{near}`?"),
+                None => format!("nodes are: {}", nodes().take(20).collect::<Vec<_>>().join(", ")),
+            };
+            return Err(vec![diagnostic.help(help)].into());
+        }
+    }
+    Ok(())
+}
+
+/// Puts the choices of `--option` where the compiler looks for them.
+pub(super) fn choose(assignments: &[Assignment], options: &mut Options) {
+    for a in assignments {
+        options.choices.insert((a.node.clone(), a.name.clone()), a.value.clone());
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn value(text: &str) -> Result<Value, String> {
+        text.parse::<Assignment>()?.value()
+    }
+
+    #[test]
+    fn values_are_read_as_graphs_write_them() {
+        assert_eq!(value("a.b=true"), Ok(Value::Bool(true)));
+        assert_eq!(value("a.b = 2.5"), Ok(Value::Numbers(vec![2.5])));
+        assert_eq!(value("a.b=1, -2,3"), Ok(Value::Numbers(vec![1.0, -2.0, 3.0])));
+        assert_eq!(value("g/a.b=(1,2)"), Ok(Value::Numbers(vec![1.0, 2.0])));
+        assert_eq!(value("a.b=brick.png"), Ok(Value::Text("brick.png".into())));
+        assert!(value("a.b=NaN").is_err() && value("a.b=(1,x)").is_err());
+    }
+
+    #[test]
+    fn what_is_not_an_assignment_is_refused() {
+        for text in ["", "a", "a.b", "a=1", ".b=1", "a.=1", "a.b="] {
+            assert!(text.parse::<Assignment>().is_err(), "{text}");
+        }
+    }
+}

@@ -1,0 +1,146 @@
+//! What each diagnostic code means, in one place: `shadetree explain`, the documentation and the tests read it.
+//!
+//! Codes are stable. ST0xx: files, graphs. ST1xx: node files. ST2xx: weaving. ST3xx: plan and text. ST4xx: scenes.
+//! ST5xx: command line and rendering. ST9xx: faults of the program itself.
+
+use crate::{graph, node, ron, scene};
+
+/// An explanation.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Entry {
+    /// The code.
+    pub code: &'static str,
+    /// What it means, in a sentence.
+    pub meaning: &'static str,
+    /// What to do, with an example; may be empty where the diagnostic's own help says it all.
+    pub more: &'static str,
+}
+
+/// Codes of the command line, of rendering and of the proof.
+const OWN: &[(&str, &str, &str)] = &[
+    (
+        "ST0500",
+        "The command line is wrong.",
+        "An option is unknown, lacks its value, or contradicts another, as in\n\n    shadetree generate a.ron -o a.png\n\nwhere .png names no shading language. `shadetree COMMAND --help` shows examples.",
+    ),
+    (
+        "ST0501",
+        "A file or folder cannot be read.",
+        "It does not exist, or permissions forbid it. Paths on the command line count from the current folder; paths in a\ngraph or scene count from the file that mentions them.",
+    ),
+    ("ST0502", "A folder was given where a file is needed.", "Name the files: `shadetree check graphs/lights/*.ron`."),
+    (
+        "ST0503",
+        "A file is larger than 64 MiB.",
+        "Nothing that large is a graph made by hand. A generated one can be split into subgraphs, which are files of\ntheir own: `\"stone\": (graph: \"stone.ron\")`.",
+    ),
+    ("ST0504", "A file is not UTF-8 text.", "Save it as UTF-8. An image or an archive was perhaps meant for another place."),
+    (
+        "ST0505",
+        "The output cannot be written.",
+        "The folder is missing or write-protected, or the disk is full. Files are written whole or not at all, so an older\nfile of that name is still there.",
+    ),
+    ("ST0506", "Binary output was about to go to the terminal.", "Name a file: `-o car.spv`; or redirect: `> car.spv`."),
+    (
+        "ST0507",
+        "A scene was given where a graph is needed.",
+        "A scene mentions graph files, and a graph can contain graphs; neither can contain a scene.",
+    ),
+    (
+        "ST0508",
+        "The module cannot be written in the chosen language.",
+        "WGSL can say things that another language version cannot. WGSL itself and SPIR-V can say everything.",
+    ),
+    ("ST0509", "`new` does not overwrite files.", "Choose another name, or remove the file first."),
+    (
+        "ST0510",
+        "The value after `=` cannot be read.",
+        "Values are true, false, finite numbers, up to four numbers as `1,2,3` or `(1, 2, 3)`, or a path:\n\n    --set spot.position=0,5,0 --set brick.image=brick.png",
+    ),
+    (
+        "ST0511",
+        "`--set` names a node that is not there.",
+        "The name is the one in the graph file, after the file's stem and a `/` where several graphs have such a node:\n\n    --set spot_vsm/spot.range=20",
+    ),
+    (
+        "ST0512",
+        "`--aov` names no output, or no light of the scene.",
+        "Outputs are radiance, normal, depth, visibility:LIGHT, irradiance:LIGHT and map:LIGHT. Lights of a scene have the\nname that the scene gives them.",
+    ),
+    (
+        "ST0513",
+        "No suitable graphics adapter was found.",
+        "Rendering needs Vulkan, Metal, Direct3D 12 or OpenGL. A software adapter needs no graphics card; on Debian and\nUbuntu:\n\n    apt-get install mesa-vulkan-drivers libvulkan1\n\n`shadetree doctor` lists the adapters. generate, check, nodes and fmt need none.",
+    ),
+    ("ST0514", "The picture could not be rendered.", "The adapter refused or ran out of memory, or a picture that the scene needs cannot be used."),
+    (
+        "ST0515",
+        "This build cannot render.",
+        "It was built with `--no-default-features`. Build with the feature `render`:\n\n    cargo build --release --features render",
+    ),
+    ("ST0516", "There is no such node.", "`shadetree nodes` lists all; `--nodes DIR` adds a folder of your own."),
+    ("ST0517", "There is no such code.", "`shadetree explain` without a code lists all of them."),
+    ("ST0518", "A file is not in canonical form.", "`shadetree fmt FILE` rewrites it. Its meaning does not change."),
+    ("ST0519", "Changes of files cannot be watched.", "The system's limit of watched folders may be reached."),
+    (
+        "ST0900",
+        "naga rejects the WGSL that was woven.",
+        "If the place is a node of your own (a `custom` node, or a file in --nodes DIR), its WGSL is at fault: the notes\nshow the line. Otherwise this is a fault in shadetree; please report it with the graph.",
+    ),
+];
+
+/// All explanations, sorted by code.
+pub fn entries() -> Vec<Entry> {
+    let tables = [ron::CODES, graph::CODES, node::CODES, scene::CODES];
+    let others = tables.into_iter().flatten().map(|&(code, meaning)| Entry { code, meaning, more: "" });
+    let own = OWN.iter().map(|&(code, meaning, more)| Entry { code, meaning, more });
+    let mut all: Vec<Entry> = others.chain(own).collect();
+    all.sort_by_key(|e| e.code);
+    all
+}
+
+/// The explanation of a code.
+pub fn find(code: &str) -> Option<Entry> {
+    entries().into_iter().find(|e| e.code == code)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::collections::BTreeSet;
+    use std::path::Path;
+
+    fn sources(folder: &Path, texts: &mut Vec<String>) {
+        for entry in std::fs::read_dir(folder).expect("readable").map(|e| e.expect("readable").path()) {
+            if entry.is_dir() {
+                sources(&entry, texts);
+            } else if entry.extension().is_some_and(|e| e == "rs") && !entry.ends_with("explain.rs") {
+                texts.push(std::fs::read_to_string(&entry).expect("readable"));
+            }
+        }
+    }
+
+    /// Codes in quotes, and whether each is more than an entry of a table.
+    fn codes_in(text: &str) -> impl Iterator<Item = (&str, bool)> {
+        text.match_indices("\"ST").filter_map(move |(at, _)| {
+            let code = text[at + 1..].split('"').next()?;
+            let digits = &code[2..];
+            let table = text[..at].ends_with('(') && text[at + 1 + code.len()..].starts_with("\", \"");
+            (matches!(digits.len(), 3 | 4) && digits.bytes().all(|b| b.is_ascii_digit())).then_some((code, table))
+        })
+    }
+
+    #[test]
+    fn every_code_in_use_is_explained_and_no_other() {
+        let mut texts = Vec::new();
+        sources(&Path::new(env!("CARGO_MANIFEST_DIR")).join("src"), &mut texts);
+        let explained: BTreeSet<&str> = entries().iter().map(|e| e.code).collect();
+        assert_eq!(explained.len(), entries().len(), "a code is explained twice");
+        let used: BTreeSet<&str> =
+            texts.iter().flat_map(|t| codes_in(t)).filter(|(_, table)| !table).map(|(code, _)| code).collect();
+        let missing: Vec<_> = used.difference(&explained).collect();
+        let unused: Vec<_> = explained.difference(&used).collect();
+        assert!(missing.is_empty(), "not explained: {missing:?}");
+        assert!(unused.is_empty(), "explained but never given: {unused:?}");
+    }
+}

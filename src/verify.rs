@@ -1,0 +1,196 @@
+//! Proves a module with naga: parsed, and validated in full, for what every WebGPU device can do.
+
+use std::ops::Range;
+
+use naga::valid::{Capabilities, ModuleInfo, ValidationFlags, Validator};
+
+use crate::diagnostic::{Diagnostic, Place};
+use crate::module::Module;
+
+/// Stack for naga, which recurses over nested expressions: what a long chain of nodes may need, with a wide margin.
+/// Only pages that are touched cost memory.
+const STACK_BYTES: usize = 256 << 20;
+
+/// A module that naga accepted, in naga's form: what other languages and devices are given.
+#[derive(Debug)]
+pub struct Verified {
+    /// The parsed module.
+    pub module: naga::Module,
+    /// What validation found out about it.
+    pub info: ModuleInfo,
+}
+
+/// Parses and validates a module with every check on and no optional capability allowed. Each error names the node and
+/// the port that the WGSL came from. It is an internal error unless the text came from a node that a person wrote.
+pub fn verify(module: &Module) -> Result<Verified, Vec<Diagnostic>> {
+    on_large_stack(|| check(&module.wgsl))
+        .and_then(|r| r)
+        .map_err(|fault| fault.report(module))
+}
+
+/// Runs `work` on a thread whose stack holds the deepest module, and turns a panic there into a fault.
+pub(crate) fn on_large_stack<T: Send>(work: impl FnOnce() -> T + Send) -> Result<T, Fault> {
+    std::thread::scope(|scope| {
+        let spawned = std::thread::Builder::new()
+            .name("naga".into())
+            .stack_size(STACK_BYTES)
+            .spawn_scoped(scope, work);
+        let thread = spawned.map_err(|e| Fault::new(format!("no thread for validation: {e}")))?;
+        thread
+            .join()
+            .map_err(|_| Fault::new("naga stopped unexpectedly"))
+    })
+}
+
+/// What naga objects to, before it is mapped to nodes.
+#[derive(Debug)]
+pub(crate) struct Fault {
+    message: String,
+    /// Byte ranges of the WGSL, the most telling first, with what is said about each.
+    at: Vec<(Range<usize>, String)>,
+    notes: Vec<String>,
+}
+
+impl Fault {
+    pub(crate) fn new(message: impl Into<String>) -> Self {
+        Self {
+            message: message.into(),
+            at: Vec::new(),
+            notes: Vec::new(),
+        }
+    }
+
+    fn report(self, module: &Module) -> Vec<Diagnostic> {
+        let origin = self
+            .at
+            .iter()
+            .find_map(|(range, _)| module.origin_of(range.start));
+        let place = match origin {
+            Some(origin) => {
+                let place = Place::default().node(&origin.node);
+                origin.port.iter().fold(place, |p, port| p.port(port))
+            }
+            None => Place::default(),
+        };
+        let mut diagnostic = Diagnostic::error(
+            "ST0900",
+            format!("naga rejects the woven WGSL: {}", self.message),
+            place,
+        );
+        for (range, said) in &self.at {
+            diagnostic = diagnostic.note(quote(&module.wgsl, range, said));
+        }
+        for note in self.notes {
+            diagnostic = diagnostic.note(note);
+        }
+        vec![diagnostic.help(
+            "if the node is your own, correct its WGSL; otherwise this is a fault in shadetree",
+        )]
+    }
+}
+
+/// `WGSL line N: text`, with what is said about it.
+fn quote(wgsl: &str, range: &Range<usize>, said: &str) -> String {
+    let before = wgsl.get(..range.start).unwrap_or_default();
+    let start = before.rfind('\n').map_or(0, |i| i + 1);
+    let number = before.matches('\n').count() + 1;
+    let line = wgsl[start..].lines().next().unwrap_or_default().trim();
+    let said = if said.is_empty() {
+        String::new()
+    } else {
+        format!(" ({said})")
+    };
+    format!("WGSL line {number}: {line}{said}")
+}
+
+fn check(wgsl: &str) -> Result<Verified, Fault> {
+    let module = naga::front::wgsl::parse_str(wgsl).map_err(|error| Fault {
+        message: error.message().to_owned(),
+        at: error
+            .labels()
+            .filter_map(|(span, said)| Some((span.to_range()?, said.to_owned())))
+            .collect(),
+        notes: error.notes().map(str::to_owned).collect(),
+    })?;
+    // naga's default capabilities hold more than WebGPU core guarantees, and nothing woven needs them.
+    let mut validator = Validator::new(ValidationFlags::all(), Capabilities::empty());
+    let info = validator.validate(&module).map_err(|error| {
+        let mut chain = vec![error.as_inner().to_string()];
+        let mut cause = std::error::Error::source(error.as_inner());
+        while let Some(inner) = cause {
+            chain.push(inner.to_string());
+            cause = inner.source();
+        }
+        Fault {
+            message: chain.join(": "),
+            at: error
+                .spans()
+                .filter_map(|(span, said)| Some((span.to_range()?, said.clone())))
+                .collect(),
+            notes: Vec::new(),
+        }
+    })?;
+    Ok(Verified { module, info })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::module::Origin;
+
+    fn module(wgsl: &str, bad: &str) -> Module {
+        let start = wgsl.find(bad).expect("the marked text is there");
+        let origin = Origin {
+            start,
+            end: start + bad.len(),
+            node: "noise".into(),
+            port: Some("scale".into()),
+        };
+        Module {
+            wgsl: wgsl.into(),
+            source_map: vec![origin],
+            ..Module::default()
+        }
+    }
+
+    #[test]
+    fn accepts_what_is_valid() {
+        let wgsl = "@fragment fn fs_main() -> @location(0) vec4f { return vec4f(1.0); }\n";
+        let verified = verify(&Module {
+            wgsl: wgsl.into(),
+            ..Module::default()
+        })
+        .expect("valid");
+        assert_eq!(verified.module.entry_points.len(), 1);
+    }
+
+    #[test]
+    fn a_parse_error_names_node_port_and_line() {
+        let errors = verify(&module(
+            "fn a() -> f32 {\n    let b = wobble;\n    return b;\n}\n",
+            "wobble",
+        ))
+        .expect_err("invalid");
+        let place = &errors[0].place;
+        assert_eq!(
+            (place.node.as_deref(), place.port.as_deref()),
+            (Some("noise"), Some("scale"))
+        );
+        assert!(
+            errors[0].notes[0].starts_with("WGSL line 2: let b = wobble;"),
+            "{:?}",
+            errors[0].notes
+        );
+    }
+
+    #[test]
+    fn a_validation_error_names_node_and_line() {
+        let errors = verify(&module(
+            "fn a(v: vec3f) -> f32 {\n    let b = determinant(v);\n    return b;\n}\n",
+            "determinant(v)",
+        ))
+        .expect_err("invalid");
+        assert_eq!(errors[0].place.node.as_deref(), Some("noise"), "{errors:?}");
+        assert_eq!(errors[0].code, "ST0900");
+    }
+}
