@@ -138,7 +138,7 @@ pub fn export(verified: &Verified, wgsl: &str, target: Target) -> Result<Vec<Fil
     });
     let fail = |message: String| {
         let message = format!("the module cannot be written as {}: {message}", target.name());
-        Diagnostic::error("ST508", message, Place::default()).help("choose another --target")
+        Diagnostic::error("ST0508", message, Place::default()).help("choose another --target")
     };
     written.map_err(|_| fail("naga stopped unexpectedly".into()))?.map_err(fail)
 }

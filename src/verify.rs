@@ -73,7 +73,7 @@ impl Fault {
             None => Place::default(),
         };
         let mut diagnostic = Diagnostic::error(
-            "ST900",
+            "ST0900",
             format!("naga rejects the woven WGSL: {}", self.message),
             place,
         );
@@ -191,6 +191,6 @@ mod tests {
         ))
         .expect_err("invalid");
         assert_eq!(errors[0].place.node.as_deref(), Some("noise"), "{errors:?}");
-        assert_eq!(errors[0].code, "ST900");
+        assert_eq!(errors[0].code, "ST0900");
     }
 }

@@ -34,7 +34,7 @@ impl Failure {
 
     /// The command line contradicts itself.
     pub(super) fn usage(message: impl Into<String>, help: impl Into<String>) -> Self {
-        Self::new(Exit::Usage, Diagnostic::error("ST500", message, Place::default()).help(help))
+        Self::new(Exit::Usage, Diagnostic::error("ST0500", message, Place::default()).help(help))
     }
 
     /// A file could not be written.
@@ -42,7 +42,7 @@ impl Failure {
         let message = format!("cannot write: {error}");
         let place = Place::file(path.display().to_string());
         let help = "give -o a path in a folder that exists and that you may write to";
-        Self::new(Exit::Io, Diagnostic::error("ST505", message, place).help(help))
+        Self::new(Exit::Io, Diagnostic::error("ST0505", message, place).help(help))
     }
 }
 

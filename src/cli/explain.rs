@@ -11,10 +11,10 @@ use crate::explain;
 /// Tell more about a diagnostic code
 #[derive(Args, Debug)]
 #[command(after_help = "Examples:
-  shadetree explain ST501
+  shadetree explain ST0501
   shadetree explain          # lists all codes")]
 pub(super) struct Explain {
-    /// The code, as in `error[ST501]`
+    /// The code, as in `error[ST0501]`
     code: Option<String>,
 }
 
@@ -35,7 +35,7 @@ impl Explain {
             let near = did_you_mean(&wanted, entries.iter().map(|e| e.code));
             let help = near.map_or("`shadetree explain` lists all codes".into(), |n| format!("did you mean {n}?"));
             let message = format!("there is no code `{code}`");
-            return Err(vec![Diagnostic::error("ST517", message, Place::default()).help(help)].into());
+            return Err(vec![Diagnostic::error("ST0517", message, Place::default()).help(help)].into());
         };
         let text = match context.is_json() {
             true => format!("{}\n", json(&entry)),

@@ -58,7 +58,7 @@ impl Fmt {
                 return Ok(Exit::Done);
             }
             let place = Place::file(path.display().to_string());
-            let diagnostic = Diagnostic::error("ST518", "the file is not in canonical form", place);
+            let diagnostic = Diagnostic::error("ST0518", "the file is not in canonical form", place);
             return Err(Failure::new(Exit::Input, diagnostic.help("run `shadetree fmt` on it")));
         }
         if output::is_dash(path) {

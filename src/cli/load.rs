@@ -59,10 +59,10 @@ impl Loader {
         let fail = |code, exit, message: String, help: &str| {
             Failure::new(exit, Diagnostic::error(code, message, Place::file(&*name)).help(help))
         };
-        let unreadable = |e: std::io::Error| fail("ST501", Exit::Io, format!("cannot read: {e}"), "check the path and its permissions");
+        let unreadable = |e: std::io::Error| fail("ST0501", Exit::Io, format!("cannot read: {e}"), "check the path and its permissions");
         let too_large = || {
             let message = format!("the file is larger than {} MiB", MAX_BYTES >> 20);
-            fail("ST503", Exit::Input, message, "split it into subgraphs")
+            fail("ST0503", Exit::Input, message, "split it into subgraphs")
         };
         let mut bytes = Vec::new();
         // One byte more than allowed tells a file that grows, or a device without end, from one that fits.
@@ -73,7 +73,7 @@ impl Loader {
             self.touched.borrow_mut().insert(path.to_path_buf());
             let meta = std::fs::metadata(path).map_err(unreadable)?;
             if meta.is_dir() {
-                return Err(fail("ST502", Exit::Io, "this is a folder, not a file".into(), "name the files in it"));
+                return Err(fail("ST0502", Exit::Io, "this is a folder, not a file".into(), "name the files in it"));
             }
             if meta.len() > MAX_BYTES as u64 {
                 return Err(too_large());
@@ -90,7 +90,7 @@ impl Loader {
             Ok(text) => Ok(SourceText::new(name, text)),
             Err(error) => {
                 let message = format!("the file is not text: byte {} is not UTF-8", error.utf8_error().valid_up_to());
-                Err(vec![Diagnostic::error("ST504", message, Place::file(name)).help("save it as UTF-8")].into())
+                Err(vec![Diagnostic::error("ST0504", message, Place::file(name)).help("save it as UTF-8")].into())
             }
         }
     }
@@ -136,7 +136,7 @@ impl Loader {
             Ok(Some(Document::Scene(_))) => {
                 let place = Place::file(path.display().to_string());
                 let message = "this is a scene, but a graph is needed here";
-                self.found.borrow_mut().push(Diagnostic::error("ST507", message, place).help("name a `Graph(...)` file"));
+                self.found.borrow_mut().push(Diagnostic::error("ST0507", message, place).help("name a `Graph(...)` file"));
                 return None;
             }
             Ok(None) => return None,
@@ -177,7 +177,7 @@ impl Loader {
             self.touched.borrow_mut().insert(folder.clone());
             let unreadable = |e: std::io::Error| {
                 let place = Place::file(folder.display().to_string());
-                let diagnostic = Diagnostic::error("ST501", format!("cannot read the folder: {e}"), place);
+                let diagnostic = Diagnostic::error("ST0501", format!("cannot read the folder: {e}"), place);
                 Failure::new(Exit::Io, diagnostic.help("--nodes takes a folder of .wgsl files"))
             };
             for entry in std::fs::read_dir(&folder).map_err(unreadable)? {
@@ -270,12 +270,12 @@ mod tests {
         let loader = Loader::default();
         let folder = tempfile::tempdir().expect("a folder");
         let failure = loader.bytes(folder.path()).expect_err("a folder");
-        assert_eq!((failure.exit, failure.diagnostics[0].code), (Exit::Io, "ST502"));
+        assert_eq!((failure.exit, failure.diagnostics[0].code), (Exit::Io, "ST0502"));
         let failure = loader.bytes(&folder.path().join("none")).expect_err("missing");
-        assert_eq!((failure.exit, failure.diagnostics[0].code), (Exit::Io, "ST501"));
+        assert_eq!((failure.exit, failure.diagnostics[0].code), (Exit::Io, "ST0501"));
         let binary = folder.path().join("b.ron");
         std::fs::write(&binary, [0xff, 0xfe]).expect("written");
         let failure = loader.text(&binary).expect_err("binary");
-        assert_eq!((failure.exit, failure.diagnostics[0].code), (Exit::Input, "ST504"));
+        assert_eq!((failure.exit, failure.diagnostics[0].code), (Exit::Input, "ST0504"));
     }
 }

@@ -44,7 +44,7 @@ written, 4 no suitable graphics adapter.
 Examples:
   shadetree generate graphs/lights/spot_vsm.ron graphs/surfaces/bumpy_glass.ron
   shadetree render graphs/scenes/car.ron -o car.png
-  shadetree explain ST501"
+  shadetree explain ST0501"
 )]
 struct Cli {
     #[command(subcommand)]
@@ -128,7 +128,7 @@ fn misused(error: &clap::Error, arguments: &[OsString]) -> Exit {
         let text = error.render().to_string();
         let (message, rest) = text.split_once('\n').unwrap_or((&text, ""));
         let message = message.trim_start_matches("error: ");
-        let mut diagnostic = Diagnostic::error("ST500", message, Place::default());
+        let mut diagnostic = Diagnostic::error("ST0500", message, Place::default());
         let rest: Vec<&str> = rest.lines().map(str::trim).filter(|l| !l.is_empty()).collect();
         if !rest.is_empty() {
             diagnostic = diagnostic.help(rest.join("\n"));
@@ -160,7 +160,7 @@ mod tests {
     fn exit_codes_are_the_documented_ones() {
         let run = |line: &str| dispatch(line.split(' ').map(OsString::from).collect());
         assert_eq!(run("shadetree --no-such-flag"), Exit::Usage);
-        assert_eq!(run("shadetree explain ST999 -q"), Exit::Input);
+        assert_eq!(run("shadetree explain ST0999 -q"), Exit::Input);
         assert_eq!(run("shadetree check /no/such/file.ron -q"), Exit::Io);
         assert_eq!(run("shadetree fmt --format md x.ron"), Exit::Usage);
     }

@@ -32,7 +32,7 @@ impl New {
         let file = format!("{stem}.ron");
         let path = Path::new(&file);
         if path.symlink_metadata().is_ok() {
-            let diagnostic = Diagnostic::error("ST509", "the file exists and is not overwritten", Place::file(&*file));
+            let diagnostic = Diagnostic::error("ST0509", "the file exists and is not overwritten", Place::file(&*file));
             return Err(Failure::new(Exit::Io, diagnostic.help("choose another name, or remove the file first")));
         }
         let text = STARTER.replace("\"starter\"", &crate::ron::text(&title));

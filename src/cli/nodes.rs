@@ -77,7 +77,7 @@ impl Nodes {
                 None => "`shadetree nodes` lists all of them".into(),
             };
             let message = format!("there is no node called `{name}`");
-            return Err(vec![Diagnostic::error("ST516", message, Place::default()).help(help)].into());
+            return Err(vec![Diagnostic::error("ST0516", message, Place::default()).help(help)].into());
         };
         let definition = file.definition(&Choices::new())?;
         let text = match context.format {

@@ -44,7 +44,7 @@ pub(super) fn refuse_terminal(what: &str) -> Result<(), Failure> {
     if std::io::stdout().is_terminal() {
         let message = format!("{what} is binary and would garble the terminal");
         let place = Place::default();
-        let diagnostic = Diagnostic::error("ST506", message, place).help("name a file with -o, or redirect the output");
+        let diagnostic = Diagnostic::error("ST0506", message, place).help("name a file with -o, or redirect the output");
         return Err(Failure::new(super::Exit::Usage, diagnostic));
     }
     Ok(())
@@ -112,7 +112,7 @@ mod tests {
         assert_eq!(std::fs::read(&path).expect("there"), b"two");
         assert_eq!(std::fs::read_dir(folder.path()).expect("readable").count(), 1, "nothing else is left");
         let failure = write(folder.path(), b"x").expect_err("a folder");
-        assert_eq!((failure.exit, failure.diagnostics[0].code), (super::super::Exit::Io, "ST505"));
+        assert_eq!((failure.exit, failure.diagnostics[0].code), (super::super::Exit::Io, "ST0505"));
         assert!(write(&folder.path().join("no/such/b"), b"x").is_err());
     }
 }

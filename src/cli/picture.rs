@@ -9,7 +9,7 @@ use super::exit::{Exit, Failure, Outcome};
 use super::load::{Document, Loader, relative};
 use super::output;
 use super::render::{Aov, Render, Samples, adapter_options};
-use super::settings::choose;
+use super::settings::overrides;
 use super::weave::{Input, Shader, Weaver};
 use crate::compile::{Options, Output};
 use crate::diagnostic::{Diagnostic, Place, SourceText};
@@ -26,8 +26,8 @@ pub(super) fn once(command: &Render, context: &Context, loader: &Loader, gpu: &m
     if let Aov::Output(output) = &command.aov {
         options.output = output.clone();
     }
-    choose(&command.option, &mut options);
-    let weaver = Weaver { context, loader, catalog: &catalog, options, set: &command.set };
+    let set = overrides(&command.set, &command.option);
+    let weaver = Weaver { context, loader, catalog: &catalog, options, set: &set };
     let (scene, file, shaders) = shaders(command, &weaver)?;
     let meshes = meshes(&scene, &file, loader)?;
     let surroundings = surroundings(&scene.environment, &file, loader)?;
@@ -216,12 +216,12 @@ fn progress(context: &Context) -> indicatif::ProgressBar {
 fn failure(error: RenderError) -> Failure {
     let (code, exit) = match &error {
         RenderError::NoAdapter { .. } | RenderError::NoDevice { .. } | RenderError::Unsupported(_) => {
-            ("ST513", Exit::NoAdapter)
+            ("ST0513", Exit::NoAdapter)
         }
-        RenderError::UnknownBackend(_) => ("ST513", Exit::Usage),
-        RenderError::DeviceLost(_) => ("ST514", Exit::NoAdapter),
-        RenderError::Job(message) if message.contains("has no map") => ("ST512", Exit::Input),
-        _ => ("ST514", Exit::Input),
+        RenderError::UnknownBackend(_) => ("ST0513", Exit::Usage),
+        RenderError::DeviceLost(_) => ("ST0514", Exit::NoAdapter),
+        RenderError::Job(message) if message.contains("has no map") => ("ST0512", Exit::Input),
+        _ => ("ST0514", Exit::Input),
     };
     let diagnostic = Diagnostic::error(code, error.to_string(), Place::default());
     let help = error.help();

@@ -111,7 +111,7 @@ impl Render {
     #[cfg(not(feature = "render"))]
     fn start(&self, _: &Context) -> Outcome {
         use crate::diagnostic::{Diagnostic, Place};
-        let diagnostic = Diagnostic::error("ST515", "this build cannot render", Place::default())
+        let diagnostic = Diagnostic::error("ST0515", "this build cannot render", Place::default())
             .help("build it with `cargo build --release --features render`");
         Err(Failure::new(super::Exit::NoAdapter, diagnostic))
     }

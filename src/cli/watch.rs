@@ -32,7 +32,7 @@ pub(super) fn watch(
         return Err(Failure::usage("--watch cannot watch stdin", "name files"));
     }
     let trouble = |e: &dyn std::fmt::Display| {
-        let diagnostic = Diagnostic::error("ST519", format!("cannot watch for changes: {e}"), Place::default());
+        let diagnostic = Diagnostic::error("ST0519", format!("cannot watch for changes: {e}"), Place::default());
         Failure::new(Exit::Io, diagnostic.help("run again without --watch"))
     };
     let (send, changes) = mpsc::channel();
