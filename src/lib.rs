@@ -1,8 +1,6 @@
 //! shadetree: weaves abstract shade trees into WGSL.
 
 pub mod diagnostic;
-pub mod report;
-pub mod explain;
 pub mod semantic;
 pub mod ron;
 pub mod graph;
@@ -12,11 +10,13 @@ pub mod program;
 pub mod plan;
 pub mod module;
 pub mod emit;
+pub mod compile;
 pub mod verify;
 pub mod export;
-pub mod compile;
 pub mod reflect;
 pub mod scene;
 #[cfg(feature = "render")]
 pub mod render;
+pub mod explain;
+pub mod report;
 pub mod cli;

@@ -192,7 +192,7 @@ mod tests {
         let place = Place::span(Span::new(&source, 16..17))
             .node("glass")
             .port("ior");
-        Diagnostic::error("ST061", "a value is wrong", place)
+        Diagnostic::error("ST0061", "a value is wrong", place)
             .help("write a map")
             .note("one\ntwo")
     }
@@ -200,7 +200,7 @@ mod tests {
     #[test]
     fn text_names_place_node_and_help() {
         let text = text(&sample(), false);
-        let expected = "error[ST061]: a value is wrong (at `glass.ior`)\n  --> a.ron:2:10\n  |\n2 |   nodes: 3,\n  |          ^\n  |\n  = note: one\n      two\n  = help: write a map\n";
+        let expected = "error[ST0061]: a value is wrong (at `glass.ior`)\n  --> a.ron:2:10\n  |\n2 |   nodes: 3,\n  |          ^\n  |\n  = note: one\n      two\n  = help: write a map\n";
         assert_eq!(text, expected);
     }
 
@@ -223,7 +223,7 @@ mod tests {
         let source = SourceText::new("b\u{1b}.ron", format!("{}\u{1b}[2J", "x".repeat(100_000)));
         let text = text(
             &Diagnostic::error(
-                "ST001",
+                "ST0001",
                 "bad\u{1b}[0m",
                 Place::span(Span::new(&source, 5..9)),
             ),
@@ -237,7 +237,7 @@ mod tests {
     fn a_broken_span_still_gives_the_message() {
         let source = SourceText::new("c.ron", "é");
         let text = text(
-            &Diagnostic::warning("ST001", "odd", Place::span(Span::new(&source, 1..99))),
+            &Diagnostic::warning("ST0001", "odd", Place::span(Span::new(&source, 1..99))),
             true,
         );
         assert!(text.contains("odd") && text.contains("c.ron:1:1"), "{text}");

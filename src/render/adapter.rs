@@ -127,7 +127,7 @@ impl AdapterChoice {
     }
 }
 
-/// The name of a backend as options give it.
+/// The backends that the options name.
 fn backends(options: &AdapterOptions) -> Result<wgpu::Backends, RenderError> {
     let Some(list) = options.backends.as_deref().filter(|l| !l.trim().is_empty()) else {
         return Ok(wgpu::Backends::all());

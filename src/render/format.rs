@@ -3,7 +3,7 @@
 use half::f16;
 use wgpu::TextureFormat;
 
-/// Formats that passes may name as targets, with the bytes of a texel from [`texel_bytes`].
+/// Formats that passes may name as targets.
 pub(super) const NAMES: &[(&str, TextureFormat)] = &[
     ("depth32float", TextureFormat::Depth32Float),
     ("r16float", TextureFormat::R16Float),

@@ -362,9 +362,8 @@ impl Work<'_> {
                         format!("`{}` or `{}` could feed `{}.{}`", names[0], names[1], self.found.id, port.name);
                     let pin = |n: &str| format!("`\"{} -> {}.{}\"`", short(n), short(&self.found.id), port.name);
                     let help = format!("pin one: {} or {}", pin(names[0]), pin(names[1]));
-                    return Err(
-                        Diagnostic::error("ST0216", message, self.found.place.clone().port(&port.name)).help(help)
-                    );
+                    let place = self.found.place.clone().port(&port.name);
+                    return Err(Box::new(Diagnostic::error("ST0216", message, place).help(help)));
                 }
                 return Ok(Some(self.wire(*node, best)));
             }

@@ -115,8 +115,9 @@ fn box_levels(base: Level, count: u32) -> Vec<Level> {
                 |row: u32| (PI * (f64::from(row) + 0.5) / f64::from(last.height)).sin() as f32;
             let (upper, lower) = (weight(2 * y), weight(2 * y + 1));
             for x in 0..width {
-                let texel =
-                    |dx: u32, dy: u32| Vec4::from_array(last.pixels[((2 * y + dy) * last.width + 2 * x + dx) as usize]);
+                let texel = |dx: u32, dy: u32| {
+                    Vec4::from_array(last.pixels[((2 * y + dy) * last.width + 2 * x + dx) as usize])
+                };
                 let sum = (texel(0, 0) + texel(1, 0)) * upper + (texel(0, 1) + texel(1, 1)) * lower;
                 pixels.push((sum / (2.0 * (upper + lower))).to_array());
             }
