@@ -59,7 +59,7 @@ const OWN: &[(&str, &str, &str)] = &[
     ),
     (
         "ST0511",
-        "`--set` names a node that is not there.",
+        "`--set` or `--option` names a node that is not there.",
         "The name is the one in the graph file, after the file's stem and a `/` where several graphs have such a node:\n\n    --set spot_vsm/spot.range=20",
     ),
     (

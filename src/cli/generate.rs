@@ -8,7 +8,7 @@ use super::context::Context;
 use super::exit::{Exit, Failure, Outcome};
 use super::load::Loader;
 use super::output;
-use super::settings::{Assignment, choose};
+use super::settings::{Assignment, overrides};
 use super::watch::watch;
 use super::weave::{Input, Shader, Weaver};
 use crate::compile::Options;
@@ -106,9 +106,9 @@ impl Generate {
     fn once(&self, context: &Context, loader: &Loader, target: Target) -> Outcome {
         let (catalog, found) = loader.catalog(&self.nodes)?;
         context.report(&found);
-        let mut options = Options { bake: self.bake, ..Options::default() };
-        choose(&self.option, &mut options);
-        let weaver = Weaver { context, loader, catalog: &catalog, options, set: &self.set };
+        let options = Options { bake: self.bake, ..Options::default() };
+        let set = overrides(&self.set, &self.option);
+        let weaver = Weaver { context, loader, catalog: &catalog, options, set: &set };
         let shaders = match weaver.read(&self.files)? {
             Input::Graphs(graphs) => vec![weaver.weave_graphs(graphs)?],
             Input::Scene(scene, file) => weaver.weave_scene(&scene, &file)?,

@@ -9,7 +9,7 @@ use super::exit::{Exit, Failure, Outcome};
 use super::load::{Document, Loader, relative};
 use super::output;
 use super::render::{Aov, Render, Samples, adapter_options};
-use super::settings::choose;
+use super::settings::overrides;
 use super::weave::{Input, Shader, Weaver};
 use crate::compile::{Options, Output};
 use crate::diagnostic::{Diagnostic, Place, SourceText};
@@ -26,8 +26,8 @@ pub(super) fn once(command: &Render, context: &Context, loader: &Loader, gpu: &m
     if let Aov::Output(output) = &command.aov {
         options.output = output.clone();
     }
-    choose(&command.option, &mut options);
-    let weaver = Weaver { context, loader, catalog: &catalog, options, set: &command.set };
+    let set = overrides(&command.set, &command.option);
+    let weaver = Weaver { context, loader, catalog: &catalog, options, set: &set };
     let (scene, file, shaders) = shaders(command, &weaver)?;
     let meshes = meshes(&scene, &file, loader)?;
     let surroundings = surroundings(&scene.environment, &file, loader)?;

@@ -1,7 +1,7 @@
 //! `NODE.PORT=VALUE` and `NODE.NAME=VALUE` on the command line.
 
 use super::exit::Failure;
-use crate::compile::{NamedGraph, Options};
+use crate::compile::NamedGraph;
 use crate::diagnostic::{Diagnostic, Place, did_you_mean};
 use crate::semantic::Value;
 
@@ -14,6 +14,8 @@ pub struct Assignment {
     pub name: String,
     /// What is right of the `=`.
     pub value: String,
+    /// Whether it chooses an option (`--option`) rather than giving a port a value (`--set`).
+    pub is_option: bool,
 }
 
 impl std::str::FromStr for Assignment {
@@ -23,7 +25,7 @@ impl std::str::FromStr for Assignment {
         let split = text.split_once('=').and_then(|(path, value)| Some((path.trim().rsplit_once('.')?, value.trim())));
         match split {
             Some(((node, name), value)) if !node.is_empty() && !name.is_empty() && !value.is_empty() => {
-                Ok(Self { node: node.into(), name: name.into(), value: value.into() })
+                Ok(Self { node: node.into(), name: name.into(), value: value.into(), is_option: false })
             }
             _ => Err("expected NODE.NAME=VALUE, as in `spot.position=(1, 2, 3)`".into()),
         }
@@ -54,19 +56,30 @@ impl Assignment {
     }
 }
 
-/// Puts the values of `--set` into the graphs that have such a node. Ports and types are checked when compiling.
+/// Everything that the command line overrides.
+pub(super) fn overrides(set: &[Assignment], option: &[Assignment]) -> Vec<Assignment> {
+    let options = option.iter().map(|a| Assignment { is_option: true, ..a.clone() });
+    set.iter().cloned().chain(options).collect()
+}
+
+/// Puts overrides into the graphs that have such a node. Ports, options and types are checked when compiling.
 pub(super) fn apply(assignments: &[Assignment], graphs: &mut [NamedGraph]) -> Result<(), Failure> {
     for assignment in assignments {
         let wrong = |message| Diagnostic::error("ST0510", message, Place::default().node(&assignment.node));
-        let value = assignment.value().map_err(|m| vec![wrong(m)])?;
+        let flag = if assignment.is_option { "--option" } else { "--set" };
+        let value = assignment.value();
+        let value = if assignment.is_option { Value::Bool(true) } else { value.map_err(|m| vec![wrong(m)])? };
         let (graph, node) = match assignment.node.split_once('/') {
             Some((graph, node)) if graphs.iter().any(|g| g.name == graph) => (Some(graph), node),
             _ => (None, assignment.node.as_str()),
         };
         let mut found = false;
         for named in graphs.iter_mut().filter(|g| graph.is_none_or(|name| g.name == name)) {
-            if named.graph.nodes.contains_key(node) {
-                found = true;
+            let Some(target) = named.graph.nodes.get_mut(node) else { continue };
+            found = true;
+            if assignment.is_option {
+                target.options.insert(assignment.name.clone(), assignment.value.clone());
+            } else {
                 named.set.insert(format!("{node}.{}", assignment.name), value.clone());
             }
         }
@@ -74,7 +87,7 @@ pub(super) fn apply(assignments: &[Assignment], graphs: &mut [NamedGraph]) -> Re
             let nodes = || graphs.iter().flat_map(|g| g.graph.nodes.keys().map(String::as_str));
             let diagnostic = Diagnostic::error(
                 "ST0511",
-                format!("--set names the node `{}`, which no graph has", assignment.node),
+                format!("{flag} names the node `{}`, which no graph has", assignment.node),
                 Place::default().node(&assignment.node),
             );
             let help = match did_you_mean(node, nodes()) {
@@ -85,13 +98,6 @@ pub(super) fn apply(assignments: &[Assignment], graphs: &mut [NamedGraph]) -> Re
         }
     }
     Ok(())
-}
-
-/// Puts the choices of `--option` where the compiler looks for them.
-pub(super) fn choose(assignments: &[Assignment], options: &mut Options) {
-    for a in assignments {
-        options.choices.insert((a.node.clone(), a.name.clone()), a.value.clone());
-    }
 }
 
 #[cfg(test)]
