@@ -1,0 +1,104 @@
+//! Every example graph: canonical on disk, compiles to the expected WGSL, the same for any order of its lines.
+
+use shadetree::compile::{Options, Output};
+use shadetree::diagnostic::SourceText;
+use shadetree::graph;
+
+use crate::support::{compiled, expect_file, files, graph_file, graph_text, no_strays, text};
+
+fn examples() -> Vec<std::path::PathBuf> {
+    let mut all = files("graphs/lights", "ron");
+    all.extend(files("graphs/surfaces", "ron"));
+    all.extend(files("graphs/lib", "ron"));
+    all
+}
+
+#[test]
+fn examples_are_canonical() {
+    for path in examples() {
+        let source = text(&path);
+        let (graph, found) = graph::read(&source);
+        assert!(found.is_empty(), "{}: {found:?}", path.display());
+        assert_eq!(graph::write(&graph.expect("no errors")), source.text, "{}", path.display());
+    }
+}
+
+#[test]
+fn examples_give_the_expected_wgsl() {
+    let mut known = Vec::new();
+    for path in examples() {
+        let module = compiled(&[graph_file(&path)], &Options::default()).module;
+        let name = format!("tests/golden/{}", path.strip_prefix("graphs").expect("below").with_extension("wgsl").display());
+        expect_file(&name, module.wgsl.as_bytes());
+        known.push(name);
+    }
+    let pair = [graph_file("graphs/lights/spot_vsm.ron".as_ref()), graph_file("graphs/surfaces/bumpy_glass.ron".as_ref())];
+    let name = "tests/golden/woven/spot_vsm+bumpy_glass.wgsl";
+    expect_file(name, compiled(&pair, &Options::default()).module.wgsl.as_bytes());
+    known.push(name.to_owned());
+    no_strays("tests/golden", "wgsl", &known);
+}
+
+/// Compiling again, and from a file whose lines are in another order, gives the same bytes.
+#[test]
+fn output_does_not_depend_on_order() {
+    for path in examples() {
+        let source = text(&path);
+        let first = compiled(&[graph_file(&path)], &Options::default());
+        assert_eq!(first, compiled(&[graph_file(&path)], &Options::default()), "{}", path.display());
+        let reversed = reverse_entries(&source.text);
+        let again = compiled(&[graph_text(&graph_file(&path).name, &SourceText::new(source.name.clone(), reversed))], &Options::default());
+        assert_eq!(first, again, "{}", path.display());
+    }
+}
+
+/// The text with the lines of each list and map of the root in reverse order (canonical files have an entry a line).
+fn reverse_entries(text: &str) -> String {
+    let mut out = String::new();
+    let mut block: Vec<&str> = Vec::new();
+    let mut entries: Vec<String> = Vec::new();
+    let flush = |entries: &mut Vec<String>, out: &mut String| {
+        entries.drain(..).rev().for_each(|e| out.push_str(&e));
+    };
+    for line in text.split_inclusive('\n') {
+        let depth = line.len() - line.trim_start().len();
+        if depth >= 8 {
+            block.push(line);
+            // An entry ends where a line at its own depth ends with a comma.
+            if depth == 8 && line.trim_end().ends_with(',') {
+                entries.push(block.concat());
+                block.clear();
+            }
+        } else {
+            flush(&mut entries, &mut out);
+            out.push_str(&block.concat());
+            block.clear();
+            out.push_str(line);
+        }
+    }
+    out
+}
+
+/// Every byte of the fragment stage that a node is responsible for says so, and other outputs weave as well.
+#[test]
+fn every_output_weaves() {
+    let graphs = || [graph_file("graphs/lights/two_shadows.ron".as_ref()), graph_file("graphs/surfaces/bumpy_glass.ron".as_ref())];
+    for output in [Output::Normal, Output::Depth, Output::Visibility("spot".into()), Output::Irradiance("two_shadows".into())] {
+        let module = compiled(&graphs(), &Options { output: output.clone(), ..Options::default() }).module;
+        assert!(module.wgsl.contains("fn fs_main"), "{output:?}");
+    }
+    let module = compiled(&graphs(), &Options::default()).module;
+    for node in ["bumpy_glass/bump", "bumpy_glass/glass", "two_shadows/spot"] {
+        assert!(module.source_map.iter().any(|o| o.node == node), "{node} is not in the source map");
+    }
+    for origin in &module.source_map {
+        assert!(module.wgsl.get(origin.start..origin.end).is_some(), "{origin:?}");
+    }
+}
+
+/// Baked parameters leave no uniform behind, except what the spaces of maps are made from.
+#[test]
+fn baking_leaves_constants() {
+    let module = compiled(&[graph_file("graphs/surfaces/marble.ron".as_ref())], &Options { bake: true, ..Options::default() }).module;
+    assert!(module.parameters.is_empty() && !module.wgsl.contains("parameters."), "{}", module.wgsl);
+}
