@@ -9,7 +9,7 @@ use crate::report;
 
 /// Form of messages and listings.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
-pub enum Format {
+pub(super) enum Format {
     /// For people.
     #[default]
     Text,
@@ -21,7 +21,7 @@ pub enum Format {
 
 /// When to colour messages.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
-pub enum Color {
+pub(super) enum Color {
     /// On a terminal, unless NO_COLOR is set.
     #[default]
     Auto,
@@ -87,6 +87,7 @@ impl Context {
     }
 
     /// Whether progress may be drawn.
+    #[cfg(feature = "render")]
     pub(super) fn draws_progress(&self) -> bool {
         !self.quiet && !self.is_json() && std::io::stderr().is_terminal()
     }

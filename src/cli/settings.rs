@@ -7,7 +7,7 @@ use crate::semantic::Value;
 
 /// `NODE.PORT=VALUE`, read by clap.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Assignment {
+pub(super) struct Assignment {
     /// Node, perhaps after its graph's name and a `/`.
     pub node: String,
     /// Port or option.
