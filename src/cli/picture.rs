@@ -160,7 +160,7 @@ fn surroundings(of: &Environment, file: &Path, loader: &Loader) -> Result<Surrou
         Environment::Image { image, .. } => {
             let bytes = loader.bytes(&relative(&image.path, &file.display().to_string()))?;
             let place = image.span.clone().map_or_else(|| Place::file(&*image.path), Place::span);
-            Some(environment::decode(&bytes, &place).map_err(|d| vec![d])?)
+            Some(environment::decode(&bytes, &place).map_err(|d| vec![*d])?)
         }
         _ => None,
     };
@@ -168,7 +168,7 @@ fn surroundings(of: &Environment, file: &Path, loader: &Loader) -> Result<Surrou
     let level = |l: environment::Level| SurroundingsLevel {
         width: l.width,
         height: l.height,
-        pixels: l.pixels.into_iter().map(|[r, g, b, _]| [r, g, b]).collect(),
+        pixels: l.pixels,
     };
     let levels = map.levels.into_iter().map(level).collect();
     Ok(Surroundings { levels, irradiance: map.irradiance, background: true })
