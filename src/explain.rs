@@ -18,35 +18,107 @@ pub struct Entry {
 
 /// Codes of weaving and planning.
 const WEAVE: &[(&str, &str, &str)] = &[
-    ("ST0200", "There is no node of this kind, or a `custom` node has no WGSL.", "`shadetree nodes` lists all kinds; `--nodes DIR` adds a folder of your own."),
+    (
+        "ST0200",
+        "There is no node of this kind, or a `custom` node has no WGSL.",
+        "`shadetree nodes` lists all kinds; `--nodes DIR` adds a folder of your own.",
+    ),
     ("ST0201", "The node has no such option.", "`shadetree nodes KIND` shows its options."),
-    ("ST0202", "The option has no such choice.", "Options are chosen from a list, as texts: `options: {\"width\": \"5\"}`."),
-    ("ST0203", "The node has no such input.", "`shadetree nodes KIND` shows its inputs. An option can add or remove some."),
-    ("ST0204", "The value does not fit the input.", "A vector takes as many numbers as it has components, or one number for all of them."),
+    (
+        "ST0202",
+        "The option has no such choice.",
+        "Options are chosen from a list, as texts: `options: {\"width\": \"5\"}`.",
+    ),
+    (
+        "ST0203",
+        "The node has no such input.",
+        "`shadetree nodes KIND` shows its inputs. An option can add or remove some.",
+    ),
+    (
+        "ST0204",
+        "The value does not fit the input.",
+        "A vector takes as many numbers as it has components, or one number for all of them.",
+    ),
     ("ST0205", "The value is not finite.", "NaN and infinities spread through a picture and are refused."),
-    ("ST0206", "The value is out of range.", "Ranges are inclusive, per component, and in the unit of the port (degrees, metres)."),
-    ("ST0207", "A value is set on a node that the graph does not have.", "Scenes and `--set` name nodes of the graph file as `node.port`."),
-    ("ST0208", "A link names a port that its node does not have.", "Leave the port out, and the types decide: `\"noise -> glass\"`."),
-    ("ST0209", "Nodes feed each other in a circle.", "No node of a circle can be computed first. Remove one of its links."),
-    ("ST0210", "A light meets no surface that takes light.", "Add a surface, or link the light to the one that it is to shine on."),
+    (
+        "ST0206",
+        "The value is out of range.",
+        "Ranges are inclusive, per component, and in the unit of the port (degrees, metres).",
+    ),
+    (
+        "ST0207",
+        "A value is set on a node that the graph does not have.",
+        "Scenes and `--set` name nodes of the graph file as `node.port`.",
+    ),
+    (
+        "ST0208",
+        "A link names a port that its node does not have.",
+        "Leave the port out, and the types decide: `\"noise -> glass\"`.",
+    ),
+    (
+        "ST0209",
+        "Nodes feed each other in a circle.",
+        "No node of a circle can be computed first. Remove one of its links.",
+    ),
+    (
+        "ST0210",
+        "A light meets no surface that takes light.",
+        "Add a surface, or link the light to the one that it is to shine on.",
+    ),
     ("ST0211", "A shadow is on no light.", "A shadow stands behind a light: `\"spot -> shadow\"`."),
-    ("ST0212", "Two links lead to one input.", "An input takes one value. Combine the two with a node such as mix or add, or remove one link."),
-    ("ST0213", "A link joins ports whose types do not go together.", "Only conversions that lose nothing are inserted. Put the node that loses what you want to lose between them."),
-    ("ST0214", "More nodes are linked to a node than it has fitting inputs.", "Remove a link, or pin one to the input that it is meant for."),
-    ("ST0215", "A node contributes nothing to the node that it is linked to.", "No output fits a free input, not even by conversion."),
+    (
+        "ST0212",
+        "Two links lead to one input.",
+        "An input takes one value. Combine the two with a node such as mix or add, or remove one link.",
+    ),
+    (
+        "ST0213",
+        "A link joins ports whose types do not go together.",
+        "Only conversions that lose nothing are inserted. Put the node that loses what you want to lose between them.",
+    ),
+    (
+        "ST0214",
+        "More nodes are linked to a node than it has fitting inputs.",
+        "Remove a link, or pin one to the input that it is meant for.",
+    ),
+    (
+        "ST0215",
+        "A node contributes nothing to the node that it is linked to.",
+        "No output fits a free input, not even by conversion.",
+    ),
     (
         "ST0216",
         "A link could mean several inputs.",
         "Two inputs fit equally well and the weaver does not guess. Pin the link:\n\n    \"noise.value -> bump.height\"",
     ),
     ("ST0217", "An input that has no default is not linked.", "Link a node that gives such a value to it."),
-    ("ST0218", "The widths of the values at a generic node do not go together.", "All generic inputs of a node have one width; single numbers are spread."),
-    ("ST0219", "There is no light of that name.", "`--aov visibility:LIGHT` takes the name of a light in the scene, or of a light node in a graph."),
+    (
+        "ST0218",
+        "The widths of the values at a generic node do not go together.",
+        "All generic inputs of a node have one width; single numbers are spread.",
+    ),
+    (
+        "ST0219",
+        "There is no light of that name.",
+        "`--aov visibility:LIGHT` takes the name of a light in the scene, or of a light node in a graph.",
+    ),
     ("ST0220", "A node feeds nothing and is left out.", "Link it, mute it, or remove it."),
     ("ST0221", "Several nodes could be the result.", "Say which: `output: \"glass\"`."),
-    ("ST0222", "The graph's output is not there.", "`output` names a node, and perhaps a port: `\"glass\"` or `\"glass.radiance\"`."),
-    ("ST0223", "No light shines on a surface.", "Give a light's graph file as well: `shadetree generate spot.ron matte.ron`."),
-    ("ST0224", "The result is nothing that can be shown.", "A picture shows colours, numbers and vectors. End the graph in a surface."),
+    (
+        "ST0222",
+        "The graph's output is not there.",
+        "`output` names a node, and perhaps a port: `\"glass\"` or `\"glass.radiance\"`.",
+    ),
+    (
+        "ST0223",
+        "No light shines on a surface.",
+        "Give a light's graph file as well: `shadetree generate spot.ron matte.ron`.",
+    ),
+    (
+        "ST0224",
+        "The result is nothing that can be shown.",
+        "A picture shows colours, numbers and vectors. End the graph in a surface.",
+    ),
     ("ST0225", "There is nothing to see.", "The smallest graph has one node, such as `lambert`."),
     ("ST0226", "This light cannot carry maps, which the shadow needs.", "Spot and directional lights can."),
     (
@@ -54,7 +126,11 @@ const WEAVE: &[(&str, &str, &str)] = &[
         "What a light's map depends on is not a parameter.",
         "Maps are rendered before the picture, so position, direction and angles of their light are values, not links.",
     ),
-    ("ST0300", "A node asks for a pass that does not exist.", "Its `map` line names a file in shaders/; `shadetree nodes KIND` shows the node's file."),
+    (
+        "ST0300",
+        "A node asks for a pass that does not exist.",
+        "Its `map` line names a file in shaders/; `shadetree nodes KIND` shows the node's file.",
+    ),
 ];
 
 /// Codes of the command line, of rendering and of the proof.
@@ -75,13 +151,21 @@ const OWN: &[(&str, &str, &str)] = &[
         "A file is larger than 64 MiB.",
         "Nothing that large is a graph made by hand. A generated one can be split into subgraphs, which are files of\ntheir own: `\"stone\": (graph: \"stone.ron\")`.",
     ),
-    ("ST0504", "A file is not UTF-8 text.", "Save it as UTF-8. An image or an archive was perhaps meant for another place."),
+    (
+        "ST0504",
+        "A file is not UTF-8 text.",
+        "Save it as UTF-8. An image or an archive was perhaps meant for another place.",
+    ),
     (
         "ST0505",
         "The output cannot be written.",
         "The folder is missing or write-protected, or the disk is full. Files are written whole or not at all, so an older\nfile of that name is still there.",
     ),
-    ("ST0506", "Binary output was about to go to the terminal.", "Name a file: `-o car.spv`; or redirect: `> car.spv`."),
+    (
+        "ST0506",
+        "Binary output was about to go to the terminal.",
+        "Name a file: `-o car.spv`; or redirect: `> car.spv`.",
+    ),
     (
         "ST0507",
         "A scene was given where a graph is needed.",
@@ -113,7 +197,11 @@ const OWN: &[(&str, &str, &str)] = &[
         "No suitable graphics adapter was found.",
         "Rendering needs Vulkan, Metal, Direct3D 12 or OpenGL. A software adapter needs no graphics card; on Debian and\nUbuntu:\n\n    apt-get install mesa-vulkan-drivers libvulkan1\n\n`shadetree doctor` lists the adapters. generate, check, nodes and fmt need none.",
     ),
-    ("ST0514", "The picture could not be rendered.", "The adapter refused or ran out of memory, or a picture that the scene needs cannot be used."),
+    (
+        "ST0514",
+        "The picture could not be rendered.",
+        "The adapter refused or ran out of memory, or a picture that the scene needs cannot be used.",
+    ),
     (
         "ST0515",
         "This build cannot render.",

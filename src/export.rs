@@ -172,9 +172,8 @@ fn to_msl(verified: &Verified) -> Result<String, String> {
             (naga::ResourceBinding { group, binding }, target)
         })
         .collect();
-    let point = |name: &String| {
-        (name.clone(), msl::EntryPointResources { resources: resources.clone(), ..Default::default() })
-    };
+    let point =
+        |name: &String| (name.clone(), msl::EntryPointResources { resources: resources.clone(), ..Default::default() });
     let options = msl::Options {
         lang_version: (2, 4),
         per_entry_point_map: verified.module.entry_points.iter().map(|e| point(&e.name)).collect(),
@@ -200,10 +199,8 @@ fn to_hlsl(verified: &Verified) -> Result<String, String> {
         options.sampler_buffer_binding_map.insert(key, target(space, 255));
     }
     // Two spaces that no group uses.
-    options.sampler_heap_target = hlsl::SamplerHeapBindTargets {
-        standard_samplers: target(254, 0),
-        comparison_samplers: target(255, 0),
-    };
+    options.sampler_heap_target =
+        hlsl::SamplerHeapBindTargets { standard_samplers: target(254, 0), comparison_samplers: target(255, 0) };
     let pipeline = hlsl::PipelineOptions { entry_point: None };
     let mut text = String::new();
     let mut writer = hlsl::Writer::new(&mut text, &options, &pipeline);

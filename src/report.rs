@@ -23,9 +23,7 @@ pub fn text(diagnostic: &Diagnostic, color: bool) -> String {
         Severity::Error => Level::Error,
         Severity::Warning => Level::Warning,
     };
-    let mut report = Report::new(level)
-        .with_code(diagnostic.code)
-        .with_message(headline(diagnostic));
+    let mut report = Report::new(level).with_code(diagnostic.code).with_message(headline(diagnostic));
     let mut name = Cow::Borrowed("");
     let mut source = Cow::Borrowed("");
     match &diagnostic.place.span {
@@ -36,10 +34,7 @@ pub fn text(diagnostic: &Diagnostic, color: bool) -> String {
         }
         Some(span) => {
             let (line, column) = span.line_column();
-            report = report.with_note(format!(
-                "at {}:{line}:{column}",
-                printable(&span.source.name)
-            ));
+            report = report.with_note(format!("at {}:{line}:{column}", printable(&span.source.name)));
         }
         None => {
             if let Some(file) = &diagnostic.place.file {
@@ -47,44 +42,17 @@ pub fn text(diagnostic: &Diagnostic, color: bool) -> String {
             }
         }
     }
-    let notes = diagnostic
-        .notes
-        .iter()
-        .map(|n| format!("note: {}", printable(n)));
-    let help = diagnostic
-        .help
-        .iter()
-        .map(|h| format!("help: {}", printable(h)));
+    let notes = diagnostic.notes.iter().map(|n| format!("note: {}", printable(n)));
+    let help = diagnostic.help.iter().map(|h| format!("help: {}", printable(h)));
     report = report.with_notes(notes.chain(help).map(indented).collect());
 
-    let config = Config {
-        chars: Chars::ascii(),
-        ..Config::default()
-    };
+    let config = Config { chars: Chars::ascii(), ..Config::default() };
     let file = SimpleFile::new(name, source);
-    let mut buffer = if color {
-        Buffer::ansi()
-    } else {
-        Buffer::no_color()
-    };
-    let styles = if color {
-        Styles::default()
-    } else {
-        Styles::no_color()
-    };
-    let written = term::emit_to_write_style(
-        &mut StylesWriter::new(&mut buffer, &styles),
-        &config,
-        &file,
-        &report,
-    );
+    let mut buffer = if color { Buffer::ansi() } else { Buffer::no_color() };
+    let styles = if color { Styles::default() } else { Styles::no_color() };
+    let written = term::emit_to_write_style(&mut StylesWriter::new(&mut buffer, &styles), &config, &file, &report);
     if written.is_err() {
-        return format!(
-            "{}[{}]: {}\n",
-            severity(diagnostic),
-            diagnostic.code,
-            headline(diagnostic)
-        );
+        return format!("{}[{}]: {}\n", severity(diagnostic), diagnostic.code, headline(diagnostic));
     }
     let text = String::from_utf8_lossy(buffer.as_slice()).into_owned();
     // A blank line between reports is for the caller to decide.
@@ -129,11 +97,7 @@ fn headline(diagnostic: &Diagnostic) -> String {
         _ => return message.into_owned(),
     };
     let place = printable(&place);
-    if message.contains(place.as_ref()) {
-        message.into_owned()
-    } else {
-        format!("{message} (at {place})")
-    }
+    if message.contains(place.as_ref()) { message.into_owned() } else { format!("{message} (at {place})") }
 }
 
 /// The range, inside the text and on character boundaries, as a broken span must not hide the message.
@@ -154,9 +118,7 @@ fn is_short(span: &Span) -> bool {
     let range = clamped(span);
     let text = &span.source.text;
     let before = text[..range.start].rfind('\n').map_or(0, |i| i + 1);
-    let after = text[range.end..]
-        .find('\n')
-        .map_or(text.len(), |i| range.end + i);
+    let after = text[range.end..].find('\n').map_or(text.len(), |i| range.end + i);
     text[before..after].lines().all(|l| l.len() <= LONGEST_LINE)
 }
 
@@ -189,12 +151,8 @@ mod tests {
 
     fn sample() -> Diagnostic {
         let source = SourceText::new("a.ron", "Graph(\n  nodes: 3,\n)\n");
-        let place = Place::span(Span::new(&source, 16..17))
-            .node("glass")
-            .port("ior");
-        Diagnostic::error("ST0061", "a value is wrong", place)
-            .help("write a map")
-            .note("one\ntwo")
+        let place = Place::span(Span::new(&source, 16..17)).node("glass").port("ior");
+        Diagnostic::error("ST0061", "a value is wrong", place).help("write a map").note("one\ntwo")
     }
 
     #[test]
@@ -207,28 +165,15 @@ mod tests {
     #[test]
     fn json_counts_from_one() {
         let json = json(&sample());
-        assert_eq!(
-            (json["line"].as_u64(), json["column"].as_u64()),
-            (Some(2), Some(10))
-        );
+        assert_eq!((json["line"].as_u64(), json["column"].as_u64()), (Some(2), Some(10)));
         assert_eq!(json["end"], json!({ "line": 2, "column": 11 }));
-        assert_eq!(
-            (json["node"].as_str(), json["port"].as_str()),
-            (Some("glass"), Some("ior"))
-        );
+        assert_eq!((json["node"].as_str(), json["port"].as_str()), (Some("glass"), Some("ior")));
     }
 
     #[test]
     fn long_lines_and_escapes_stay_out_of_the_terminal() {
         let source = SourceText::new("b\u{1b}.ron", format!("{}\u{1b}[2J", "x".repeat(100_000)));
-        let text = text(
-            &Diagnostic::error(
-                "ST0001",
-                "bad\u{1b}[0m",
-                Place::span(Span::new(&source, 5..9)),
-            ),
-            false,
-        );
+        let text = text(&Diagnostic::error("ST0001", "bad\u{1b}[0m", Place::span(Span::new(&source, 5..9))), false);
         assert!(text.len() < 200 && !text.contains('\u{1b}'), "{text}");
         assert!(text.contains("at b?.ron:1:6"), "{text}");
     }
@@ -236,10 +181,7 @@ mod tests {
     #[test]
     fn a_broken_span_still_gives_the_message() {
         let source = SourceText::new("c.ron", "é");
-        let text = text(
-            &Diagnostic::warning("ST0001", "odd", Place::span(Span::new(&source, 1..99))),
-            true,
-        );
+        let text = text(&Diagnostic::warning("ST0001", "odd", Place::span(Span::new(&source, 1..99))), true);
         assert!(text.contains("odd") && text.contains("c.ron:1:1"), "{text}");
     }
 }

@@ -23,22 +23,15 @@ pub struct Verified {
 /// Parses and validates a module with every check on and no optional capability allowed. Each error names the node and
 /// the port that the WGSL came from. It is an internal error unless the text came from a node that a person wrote.
 pub fn verify(module: &Module) -> Result<Verified, Vec<Diagnostic>> {
-    on_large_stack(|| check(&module.wgsl))
-        .and_then(|r| r)
-        .map_err(|fault| fault.report(module))
+    on_large_stack(|| check(&module.wgsl)).and_then(|r| r).map_err(|fault| fault.report(module))
 }
 
 /// Runs `work` on a thread whose stack holds the deepest module, and turns a panic there into a fault.
 pub(crate) fn on_large_stack<T: Send>(work: impl FnOnce() -> T + Send) -> Result<T, Fault> {
     std::thread::scope(|scope| {
-        let spawned = std::thread::Builder::new()
-            .name("naga".into())
-            .stack_size(STACK_BYTES)
-            .spawn_scoped(scope, work);
+        let spawned = std::thread::Builder::new().name("naga".into()).stack_size(STACK_BYTES).spawn_scoped(scope, work);
         let thread = spawned.map_err(|e| Fault::new(format!("no thread for validation: {e}")))?;
-        thread
-            .join()
-            .map_err(|_| Fault::new("naga stopped unexpectedly"))
+        thread.join().map_err(|_| Fault::new("naga stopped unexpectedly"))
     })
 }
 
@@ -53,18 +46,11 @@ pub(crate) struct Fault {
 
 impl Fault {
     pub(crate) fn new(message: impl Into<String>) -> Self {
-        Self {
-            message: message.into(),
-            at: Vec::new(),
-            notes: Vec::new(),
-        }
+        Self { message: message.into(), at: Vec::new(), notes: Vec::new() }
     }
 
     fn report(self, module: &Module) -> Vec<Diagnostic> {
-        let origin = self
-            .at
-            .iter()
-            .find_map(|(range, _)| module.origin_of(range.start));
+        let origin = self.at.iter().find_map(|(range, _)| module.origin_of(range.start));
         let place = match origin {
             Some(origin) => {
                 let place = Place::default().node(&origin.node);
@@ -72,20 +58,15 @@ impl Fault {
             }
             None => Place::default(),
         };
-        let mut diagnostic = Diagnostic::error(
-            "ST0900",
-            format!("naga rejects the woven WGSL: {}", self.message),
-            place,
-        );
+        let mut diagnostic =
+            Diagnostic::error("ST0900", format!("naga rejects the woven WGSL: {}", self.message), place);
         for (range, said) in &self.at {
             diagnostic = diagnostic.note(quote(&module.wgsl, range, said));
         }
         for note in self.notes {
             diagnostic = diagnostic.note(note);
         }
-        vec![diagnostic.help(
-            "if the node is your own, correct its WGSL; otherwise this is a fault in shadetree",
-        )]
+        vec![diagnostic.help("if the node is your own, correct its WGSL; otherwise this is a fault in shadetree")]
     }
 }
 
@@ -95,21 +76,14 @@ fn quote(wgsl: &str, range: &Range<usize>, said: &str) -> String {
     let start = before.rfind('\n').map_or(0, |i| i + 1);
     let number = before.matches('\n').count() + 1;
     let line = wgsl[start..].lines().next().unwrap_or_default().trim();
-    let said = if said.is_empty() {
-        String::new()
-    } else {
-        format!(" ({said})")
-    };
+    let said = if said.is_empty() { String::new() } else { format!(" ({said})") };
     format!("WGSL line {number}: {line}{said}")
 }
 
 fn check(wgsl: &str) -> Result<Verified, Fault> {
     let module = naga::front::wgsl::parse_str(wgsl).map_err(|error| Fault {
         message: error.message().to_owned(),
-        at: error
-            .labels()
-            .filter_map(|(span, said)| Some((span.to_range()?, said.to_owned())))
-            .collect(),
+        at: error.labels().filter_map(|(span, said)| Some((span.to_range()?, said.to_owned()))).collect(),
         notes: error.notes().map(str::to_owned).collect(),
     })?;
     // naga's default capabilities hold more than WebGPU core guarantees, and nothing woven needs them.
@@ -123,10 +97,7 @@ fn check(wgsl: &str) -> Result<Verified, Fault> {
         }
         Fault {
             message: chain.join(": "),
-            at: error
-                .spans()
-                .filter_map(|(span, said)| Some((span.to_range()?, said.clone())))
-                .collect(),
+            at: error.spans().filter_map(|(span, said)| Some((span.to_range()?, said.clone()))).collect(),
             notes: Vec::new(),
         }
     })?;
@@ -140,47 +111,24 @@ mod tests {
 
     fn module(wgsl: &str, bad: &str) -> Module {
         let start = wgsl.find(bad).expect("the marked text is there");
-        let origin = Origin {
-            start,
-            end: start + bad.len(),
-            node: "noise".into(),
-            port: Some("scale".into()),
-        };
-        Module {
-            wgsl: wgsl.into(),
-            source_map: vec![origin],
-            ..Module::default()
-        }
+        let origin = Origin { start, end: start + bad.len(), node: "noise".into(), port: Some("scale".into()) };
+        Module { wgsl: wgsl.into(), source_map: vec![origin], ..Module::default() }
     }
 
     #[test]
     fn accepts_what_is_valid() {
         let wgsl = "@fragment fn fs_main() -> @location(0) vec4f { return vec4f(1.0); }\n";
-        let verified = verify(&Module {
-            wgsl: wgsl.into(),
-            ..Module::default()
-        })
-        .expect("valid");
+        let verified = verify(&Module { wgsl: wgsl.into(), ..Module::default() }).expect("valid");
         assert_eq!(verified.module.entry_points.len(), 1);
     }
 
     #[test]
     fn a_parse_error_names_node_port_and_line() {
-        let errors = verify(&module(
-            "fn a() -> f32 {\n    let b = wobble;\n    return b;\n}\n",
-            "wobble",
-        ))
-        .expect_err("invalid");
+        let errors =
+            verify(&module("fn a() -> f32 {\n    let b = wobble;\n    return b;\n}\n", "wobble")).expect_err("invalid");
         let place = &errors[0].place;
-        assert_eq!(
-            (place.node.as_deref(), place.port.as_deref()),
-            (Some("noise"), Some("scale"))
-        );
-        assert!(
-            errors[0].notes[0].starts_with("WGSL line 2: let b = wobble;"),
-            "{:?}",
-            errors[0].notes
-        );
+        assert_eq!((place.node.as_deref(), place.port.as_deref()), (Some("noise"), Some("scale")));
+        assert!(errors[0].notes[0].starts_with("WGSL line 2: let b = wobble;"), "{:?}", errors[0].notes);
     }
 
     #[test]

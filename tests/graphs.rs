@@ -28,11 +28,13 @@ fn examples_give_the_expected_wgsl() {
     let mut known = Vec::new();
     for path in examples() {
         let module = compiled(&[graph_file(&path)], &Options::default()).module;
-        let name = format!("tests/golden/{}", path.strip_prefix("graphs").expect("below").with_extension("wgsl").display());
+        let name =
+            format!("tests/golden/{}", path.strip_prefix("graphs").expect("below").with_extension("wgsl").display());
         expect_file(&name, module.wgsl.as_bytes());
         known.push(name);
     }
-    let pair = [graph_file("graphs/lights/spot_vsm.ron".as_ref()), graph_file("graphs/surfaces/bumpy_glass.ron".as_ref())];
+    let pair =
+        [graph_file("graphs/lights/spot_vsm.ron".as_ref()), graph_file("graphs/surfaces/bumpy_glass.ron".as_ref())];
     let name = "tests/golden/woven/spot_vsm+bumpy_glass.wgsl";
     expect_file(name, compiled(&pair, &Options::default()).module.wgsl.as_bytes());
     known.push(name.to_owned());
@@ -47,7 +49,10 @@ fn output_does_not_depend_on_order() {
         let first = compiled(&[graph_file(&path)], &Options::default());
         assert_eq!(first, compiled(&[graph_file(&path)], &Options::default()), "{}", path.display());
         let reversed = reverse_entries(&source.text);
-        let again = compiled(&[graph_text(&graph_file(&path).name, &SourceText::new(source.name.clone(), reversed))], &Options::default());
+        let again = compiled(
+            &[graph_text(&graph_file(&path).name, &SourceText::new(source.name.clone(), reversed))],
+            &Options::default(),
+        );
         assert_eq!(first, again, "{}", path.display());
     }
 }
@@ -82,8 +87,12 @@ fn reverse_entries(text: &str) -> String {
 /// Every byte of the fragment stage that a node is responsible for says so, and other outputs weave as well.
 #[test]
 fn every_output_weaves() {
-    let graphs = || [graph_file("graphs/lights/two_shadows.ron".as_ref()), graph_file("graphs/surfaces/bumpy_glass.ron".as_ref())];
-    for output in [Output::Normal, Output::Depth, Output::Visibility("spot".into()), Output::Irradiance("two_shadows".into())] {
+    let graphs = || {
+        [graph_file("graphs/lights/two_shadows.ron".as_ref()), graph_file("graphs/surfaces/bumpy_glass.ron".as_ref())]
+    };
+    for output in
+        [Output::Normal, Output::Depth, Output::Visibility("spot".into()), Output::Irradiance("two_shadows".into())]
+    {
         let module = compiled(&graphs(), &Options { output: output.clone(), ..Options::default() }).module;
         assert!(module.wgsl.contains("fn fs_main"), "{output:?}");
     }
@@ -99,6 +108,8 @@ fn every_output_weaves() {
 /// Baked parameters leave no uniform behind, except what the spaces of maps are made from.
 #[test]
 fn baking_leaves_constants() {
-    let module = compiled(&[graph_file("graphs/surfaces/marble.ron".as_ref())], &Options { bake: true, ..Options::default() }).module;
+    let module =
+        compiled(&[graph_file("graphs/surfaces/marble.ron".as_ref())], &Options { bake: true, ..Options::default() })
+            .module;
     assert!(module.parameters.is_empty() && !module.wgsl.contains("parameters."), "{}", module.wgsl);
 }

@@ -29,13 +29,18 @@ fn feeder(port: &Port, shape: &Shape) -> String {
     let ty = shape.wgsl();
     let value = match shape {
         Shape::Bool => "true".to_owned(),
-        Shape::Matrix(4) => "mat4x4f(1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0)".to_owned(),
+        Shape::Matrix(4) => {
+            "mat4x4f(1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0)".to_owned()
+        }
         Shape::Matrix(3) => "mat3x3f(1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0)".to_owned(),
         Shape::Matrix(_) => "mat2x2f(1.0, 0.0, 0.0, 1.0)".to_owned(),
         Shape::I32 | Shape::U32 => format!("{ty}(1)"),
         _ => format!("{ty}(0.5)"),
     };
-    format!("/// -> value ({}): What is wanted.\\nfn feed_{}() -> {ty} {{ return {value}; }}", port.ty.meaning, port.name)
+    format!(
+        "/// -> value ({}): What is wanted.\\nfn feed_{}() -> {ty} {{ return {value}; }}",
+        port.ty.meaning, port.name
+    )
 }
 
 /// A graph around one node that feeds all of its required inputs.
@@ -94,7 +99,11 @@ fn every_node_weaves_alone_with_every_option_and_width() {
         for options in variations(&default) {
             let definition = file.definition(&options).expect("embedded nodes are sound");
             // An output that is no number or colour cannot be shown by itself.
-            let shown = definition.main.outputs.first().is_some_and(|o| matches!(o.ty.shape, Shape::F32(_) | Shape::Generic | Shape::Bool));
+            let shown = definition
+                .main
+                .outputs
+                .first()
+                .is_some_and(|o| matches!(o.ty.shape, Shape::F32(_) | Shape::Generic | Shape::Bool));
             if !shown {
                 continue;
             }
@@ -131,8 +140,11 @@ fn every_light_under_every_shadow_on_every_surface() {
                 let definition = catalog().get(surface).expect("listed").definition(&BTreeMap::new()).expect("sound");
                 let mut nodes = format!("\"body\": (kind: \"{surface}\"),");
                 let mut links = String::new();
-                for port in definition.inputs().filter(|p| p.ty.meaning.quantity == shadetree::semantic::Quantity::Radiance) {
-                    let _ = write!(nodes, "\"under_{0}\": (kind: \"lambert\", params: {{\"albedo\": 0.5}}),", port.name);
+                for port in
+                    definition.inputs().filter(|p| p.ty.meaning.quantity == shadetree::semantic::Quantity::Radiance)
+                {
+                    let _ =
+                        write!(nodes, "\"under_{0}\": (kind: \"lambert\", params: {{\"albedo\": 0.5}}),", port.name);
                     let _ = write!(links, "\"under_{0} -> body.{0}\",", port.name);
                 }
                 let material = format!("Graph(version: 1, nodes: {{{nodes}}}, links: [{links}])");

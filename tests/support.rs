@@ -99,12 +99,19 @@ pub fn expect_file(path: &str, actual: &[u8]) {
         }
         return;
     }
-    let expected = std::fs::read(&full).unwrap_or_else(|_| panic!("{path} is missing: run the tests with BLESS=1 and look at it"));
+    let expected =
+        std::fs::read(&full).unwrap_or_else(|_| panic!("{path} is missing: run the tests with BLESS=1 and look at it"));
     if expected != actual {
         let (a, b) = (String::from_utf8_lossy(&expected), String::from_utf8_lossy(actual));
-        let line = a.lines().zip(b.lines()).position(|(x, y)| x != y).unwrap_or(a.lines().count().min(b.lines().count()));
+        let line =
+            a.lines().zip(b.lines()).position(|(x, y)| x != y).unwrap_or(a.lines().count().min(b.lines().count()));
         let at = |t: &str| t.lines().nth(line).unwrap_or("<end>").to_owned();
-        panic!("{path} differs at line {}:\n  expected {}\n  actual   {}\n(BLESS=1 accepts it)", line + 1, at(&a), at(&b));
+        panic!(
+            "{path} differs at line {}:\n  expected {}\n  actual   {}\n(BLESS=1 accepts it)",
+            line + 1,
+            at(&a),
+            at(&b)
+        );
     }
 }
 

@@ -44,9 +44,16 @@ impl Doctor {
         } else {
             let mut text = format!("shadetree {}\n", env!("CARGO_PKG_VERSION"));
             text += &format!("nodes: {} kinds", catalog.kinds().count());
-            text += &if folders.is_empty() { ", all built in\n".to_owned() } else { format!(", with {}\n", folders.join(", ")) };
+            text += &if folders.is_empty() {
+                ", all built in\n".to_owned()
+            } else {
+                format!(", with {}\n", folders.join(", "))
+            };
             text += "cache: none is kept\n";
-            text += &format!("rendering: {}\n", if cfg!(feature = "render") { "built in" } else { "not built in (feature `render`)" });
+            text += &format!(
+                "rendering: {}\n",
+                if cfg!(feature = "render") { "built in" } else { "not built in (feature `render`)" }
+            );
             for adapter in &adapters {
                 text += &line(adapter);
             }

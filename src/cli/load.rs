@@ -59,7 +59,9 @@ impl Loader {
         let fail = |code, exit, message: String, help: &str| {
             Failure::new(exit, Diagnostic::error(code, message, Place::file(&*name)).help(help))
         };
-        let unreadable = |e: std::io::Error| fail("ST0501", Exit::Io, format!("cannot read: {e}"), "check the path and its permissions");
+        let unreadable = |e: std::io::Error| {
+            fail("ST0501", Exit::Io, format!("cannot read: {e}"), "check the path and its permissions")
+        };
         let too_large = || {
             let message = format!("the file is larger than {} MiB", MAX_BYTES >> 20);
             fail("ST0503", Exit::Input, message, "split it into subgraphs")
@@ -136,7 +138,9 @@ impl Loader {
             Ok(Some(Document::Scene(_))) => {
                 let place = Place::file(path.display().to_string());
                 let message = "this is a scene, but a graph is needed here";
-                self.found.borrow_mut().push(Diagnostic::error("ST0507", message, place).help("name a `Graph(...)` file"));
+                self.found
+                    .borrow_mut()
+                    .push(Diagnostic::error("ST0507", message, place).help("name a `Graph(...)` file"));
                 return None;
             }
             Ok(None) => return None,

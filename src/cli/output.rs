@@ -44,7 +44,8 @@ pub(super) fn refuse_terminal(what: &str) -> Result<(), Failure> {
     if std::io::stdout().is_terminal() {
         let message = format!("{what} is binary and would garble the terminal");
         let place = Place::default();
-        let diagnostic = Diagnostic::error("ST0506", message, place).help("name a file with -o, or redirect the output");
+        let diagnostic =
+            Diagnostic::error("ST0506", message, place).help("name a file with -o, or redirect the output");
         return Err(Failure::new(super::Exit::Usage, diagnostic));
     }
     Ok(())

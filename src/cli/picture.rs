@@ -65,7 +65,8 @@ pub(super) fn once(command: &Render, context: &Context, loader: &Loader, gpu: &m
     for message in messages {
         context.say(&message);
     }
-    let notes = [("Software".to_owned(), format!("shadetree {}", env!("CARGO_PKG_VERSION"))), ("Adapter".into(), adapter)];
+    let notes =
+        [("Software".to_owned(), format!("shadetree {}", env!("CARGO_PKG_VERSION"))), ("Adapter".into(), adapter)];
     let bytes = match exr {
         true => render::image_file::encode_exr(size, &pixels, &notes),
         false => {
@@ -165,11 +166,7 @@ fn surroundings(of: &Environment, file: &Path, loader: &Loader) -> Result<Surrou
         _ => None,
     };
     let map = environment::Map::new(of, image.as_ref());
-    let level = |l: environment::Level| SurroundingsLevel {
-        width: l.width,
-        height: l.height,
-        pixels: l.pixels,
-    };
+    let level = |l: environment::Level| SurroundingsLevel { width: l.width, height: l.height, pixels: l.pixels };
     let levels = map.levels.into_iter().map(level).collect();
     Ok(Surroundings { levels, irradiance: map.irradiance, background: true })
 }
@@ -178,7 +175,8 @@ fn surroundings(of: &Environment, file: &Path, loader: &Loader) -> Result<Surrou
 fn image(loader: &Loader, path: &str, base: &str) -> Result<Picture, String> {
     let first = |f: Failure| f.diagnostics.first().map_or_else(String::new, |d| d.message.clone());
     let bytes = loader.bytes(&relative(path, base)).map_err(first)?;
-    let mut reader = image::ImageReader::new(std::io::Cursor::new(bytes)).with_guessed_format().map_err(|e| e.to_string())?;
+    let mut reader =
+        image::ImageReader::new(std::io::Cursor::new(bytes)).with_guessed_format().map_err(|e| e.to_string())?;
     let mut limits = image::Limits::default();
     limits.max_image_width = Some(16_384);
     limits.max_image_height = Some(16_384);

@@ -19,12 +19,7 @@ const SETTLE: Duration = Duration::from_millis(100);
 
 /// Runs `work` once; with `again`, whenever a file that it read changes, until Ctrl-C. Mistakes are shown and waited
 /// out; output is only ever replaced by good output.
-pub(super) fn watch(
-    context: &Context,
-    again: bool,
-    files: &[PathBuf],
-    work: impl Fn(&Loader) -> Outcome,
-) -> Outcome {
+pub(super) fn watch(context: &Context, again: bool, files: &[PathBuf], work: impl Fn(&Loader) -> Outcome) -> Outcome {
     if !again {
         return work(&Loader::default());
     }

@@ -145,8 +145,12 @@ impl Weaver<'_> {
             let mut graphs = lights.clone();
             graphs.extend(surface);
             // A node of --set may be in one surface only.
-            let here: Vec<Assignment> =
-                self.set.iter().filter(|a| settings::apply(std::slice::from_ref(a), &mut graphs).is_ok()).cloned().collect();
+            let here: Vec<Assignment> = self
+                .set
+                .iter()
+                .filter(|a| settings::apply(std::slice::from_ref(a), &mut graphs).is_ok())
+                .cloned()
+                .collect();
             unused.retain(|a| !here.contains(a));
             let (shader, found) = self.try_weave(&graphs, objects);
             // A fault of a light shows with every surface, but is one fault.

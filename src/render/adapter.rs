@@ -27,10 +27,7 @@ pub struct AdapterOptions {
 
 impl From<AdapterChoice> for AdapterOptions {
     fn from(choice: AdapterChoice) -> Self {
-        Self {
-            choice,
-            backends: None,
-        }
+        Self { choice, backends: None }
     }
 }
 
@@ -79,11 +76,7 @@ pub(super) fn wanted_features() -> wgpu::Features {
 pub fn adapters(options: &AdapterOptions) -> Result<Vec<AdapterSummary>, RenderError> {
     let backends = backends(options)?;
     let found = pollster::block_on(instance(backends).enumerate_adapters(backends));
-    Ok(found
-        .iter()
-        .map(summary)
-        .filter(|s| options.choice.accepts(s))
-        .collect())
+    Ok(found.iter().map(summary).filter(|s| options.choice.accepts(s)).collect())
 }
 
 /// The adapter that the options ask for.
@@ -96,10 +89,7 @@ pub(super) fn find(options: &AdapterOptions) -> Result<wgpu::Adapter, RenderErro
             ..Default::default()
         });
         let wanted = options.backends.as_ref().map(|b| format!("backend {b}"));
-        return pollster::block_on(request).map_err(|_| RenderError::NoAdapter {
-            wanted,
-            found: Vec::new(),
-        });
+        return pollster::block_on(request).map_err(|_| RenderError::NoAdapter { wanted, found: Vec::new() });
     }
     let mut found = Vec::new();
     for adapter in pollster::block_on(instance.enumerate_adapters(backends)) {
@@ -162,9 +152,7 @@ pub(super) fn summary(adapter: &wgpu::Adapter) -> AdapterSummary {
     let lower = info.name.to_lowercase();
     // GL drivers do not tell the type; these are the software rasterisers that exist.
     let software = info.device_type == wgpu::DeviceType::Cpu
-        || ["llvmpipe", "softpipe", "swiftshader", "swrast"]
-            .iter()
-            .any(|n| lower.contains(n));
+        || ["llvmpipe", "softpipe", "swiftshader", "swrast"].iter().any(|n| lower.contains(n));
     let kind = match info.device_type {
         _ if software => "software",
         wgpu::DeviceType::DiscreteGpu => "discrete",
@@ -176,18 +164,9 @@ pub(super) fn summary(adapter: &wgpu::Adapter) -> AdapterSummary {
     for (flag, name) in [
         (wgpu::Features::FLOAT32_FILTERABLE, "float32-filterable"),
         (wgpu::Features::TIMESTAMP_QUERY, "timestamp-query"),
-        (
-            wgpu::Features::TIMESTAMP_QUERY_INSIDE_PASSES,
-            "timestamp-query-inside-passes",
-        ),
-        (
-            wgpu::Features::TEXTURE_FORMAT_16BIT_NORM,
-            "texture-format-16bit-norm",
-        ),
-        (
-            wgpu::Features::TEXTURE_ADAPTER_SPECIFIC_FORMAT_FEATURES,
-            "texture-adapter-specific-format-features",
-        ),
+        (wgpu::Features::TIMESTAMP_QUERY_INSIDE_PASSES, "timestamp-query-inside-passes"),
+        (wgpu::Features::TEXTURE_FORMAT_16BIT_NORM, "texture-format-16bit-norm"),
+        (wgpu::Features::TEXTURE_ADAPTER_SPECIFIC_FORMAT_FEATURES, "texture-adapter-specific-format-features"),
     ] {
         if features.contains(flag) {
             feature_names.push(name.to_owned());
@@ -195,14 +174,8 @@ pub(super) fn summary(adapter: &wgpu::Adapter) -> AdapterSummary {
     }
     let downlevel = adapter.get_downlevel_capabilities().flags;
     for (flag, name) in [
-        (
-            wgpu::DownlevelFlags::ANISOTROPIC_FILTERING,
-            "anisotropic-filtering",
-        ),
-        (
-            wgpu::DownlevelFlags::COMPARISON_SAMPLERS,
-            "comparison-samplers",
-        ),
+        (wgpu::DownlevelFlags::ANISOTROPIC_FILTERING, "anisotropic-filtering"),
+        (wgpu::DownlevelFlags::COMPARISON_SAMPLERS, "comparison-samplers"),
     ] {
         if downlevel.contains(flag) {
             feature_names.push(name.to_owned());
@@ -214,35 +187,19 @@ pub(super) fn summary(adapter: &wgpu::Adapter) -> AdapterSummary {
             wgpu::Backend::Gl => "gl".to_owned(),
             other => format!("{other:?}").to_lowercase(),
         },
-        driver: format!("{} {}", info.driver, info.driver_info)
-            .trim()
-            .to_owned(),
+        driver: format!("{} {}", info.driver, info.driver_info).trim().to_owned(),
         kind: kind.to_owned(),
         software,
         features: feature_names,
         formats: format::NAMES
             .iter()
-            .map(|(name, format)| {
-                (
-                    (*name).to_owned(),
-                    format::abilities(adapter, features, *format),
-                )
-            })
+            .map(|(name, format)| ((*name).to_owned(), format::abilities(adapter, features, *format)))
             .collect(),
         limits: vec![
-            (
-                "max-texture-dimension-2d".into(),
-                u64::from(limits.max_texture_dimension_2d),
-            ),
-            (
-                "max-uniform-buffer-binding-size".into(),
-                limits.max_uniform_buffer_binding_size,
-            ),
+            ("max-texture-dimension-2d".into(), u64::from(limits.max_texture_dimension_2d)),
+            ("max-uniform-buffer-binding-size".into(), limits.max_uniform_buffer_binding_size),
             ("max-buffer-size".into(), limits.max_buffer_size),
-            (
-                "max-sampled-textures-per-shader-stage".into(),
-                u64::from(limits.max_sampled_textures_per_shader_stage),
-            ),
+            ("max-sampled-textures-per-shader-stage".into(), u64::from(limits.max_sampled_textures_per_shader_stage)),
         ],
     }
 }
@@ -253,30 +210,15 @@ mod tests {
 
     #[test]
     fn backend_lists_are_read_and_unknown_words_are_named() {
-        let list = |text: &str| {
-            backends(&AdapterOptions {
-                backends: Some(text.into()),
-                ..Default::default()
-            })
-        };
-        assert_eq!(
-            list("vulkan, GL"),
-            Ok(wgpu::Backends::VULKAN | wgpu::Backends::GL)
-        );
+        let list = |text: &str| backends(&AdapterOptions { backends: Some(text.into()), ..Default::default() });
+        assert_eq!(list("vulkan, GL"), Ok(wgpu::Backends::VULKAN | wgpu::Backends::GL));
         assert_eq!(list(""), Ok(wgpu::Backends::all()));
-        assert_eq!(
-            list("vulkan,glide"),
-            Err(RenderError::UnknownBackend("glide".into()))
-        );
+        assert_eq!(list("vulkan,glide"), Err(RenderError::UnknownBackend("glide".into())));
     }
 
     #[test]
     fn a_choice_compares_names_without_case() {
-        let summary = AdapterSummary {
-            name: "llvmpipe (LLVM)".into(),
-            software: true,
-            ..Default::default()
-        };
+        let summary = AdapterSummary { name: "llvmpipe (LLVM)".into(), software: true, ..Default::default() };
         assert!(AdapterChoice::Name("LLVMPipe".into()).accepts(&summary));
         assert!(AdapterChoice::Cpu.accepts(&summary));
         assert!(!AdapterChoice::Name("radeon".into()).accepts(&summary));
@@ -284,14 +226,7 @@ mod tests {
 
     #[test]
     fn a_machine_without_adapters_is_told_which_packages_help() {
-        let error = RenderError::NoAdapter {
-            wanted: None,
-            found: Vec::new(),
-        };
-        assert!(
-            error
-                .help()
-                .is_some_and(|h| h.contains("mesa-vulkan-drivers libvulkan1"))
-        );
+        let error = RenderError::NoAdapter { wanted: None, found: Vec::new() };
+        assert!(error.help().is_some_and(|h| h.contains("mesa-vulkan-drivers libvulkan1")));
     }
 }

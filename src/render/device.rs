@@ -28,9 +28,7 @@ struct Trouble {
 }
 
 fn put<T>(slot: &Mutex<Option<T>>, value: T) {
-    slot.lock()
-        .unwrap_or_else(PoisonError::into_inner)
-        .get_or_insert(value);
+    slot.lock().unwrap_or_else(PoisonError::into_inner).get_or_insert(value);
 }
 
 fn take<T>(slot: &Mutex<Option<T>>) -> Option<T> {
@@ -49,15 +47,11 @@ impl Device {
             required_limits: adapter.limits(),
             ..Default::default()
         });
-        let (device, queue) = pollster::block_on(request).map_err(|e| RenderError::NoDevice {
-            adapter: summary.name.clone(),
-            message: e.to_string(),
-        })?;
+        let (device, queue) = pollster::block_on(request)
+            .map_err(|e| RenderError::NoDevice { adapter: summary.name.clone(), message: e.to_string() })?;
         let trouble = Arc::new(Trouble::default());
         let reported = trouble.clone();
-        device.on_uncaptured_error(Arc::new(move |error: wgpu::Error| {
-            put(&reported.error, convert("device", &error))
-        }));
+        device.on_uncaptured_error(Arc::new(move |error: wgpu::Error| put(&reported.error, convert("device", &error))));
         let reported = trouble.clone();
         device.set_device_lost_callback(move |reason, message| {
             // Dropping a device destroys it; that is no loss.
@@ -66,16 +60,7 @@ impl Device {
             }
         });
         let downlevel = adapter.get_downlevel_capabilities().flags;
-        Ok(Self {
-            limits: device.limits(),
-            device,
-            queue,
-            features,
-            downlevel,
-            summary,
-            adapter,
-            trouble,
-        })
+        Ok(Self { limits: device.limits(), device, queue, features, downlevel, summary, adapter, trouble })
     }
 
     /// What the device can do with a format.
@@ -97,13 +82,7 @@ impl Device {
         let validation = pollster::block_on(validation.pop());
         let internal = pollster::block_on(internal.pop());
         let memory = pollster::block_on(memory.pop());
-        if let Some(message) = self
-            .trouble
-            .lost
-            .lock()
-            .unwrap_or_else(PoisonError::into_inner)
-            .clone()
-        {
+        if let Some(message) = self.trouble.lost.lock().unwrap_or_else(PoisonError::into_inner).clone() {
             return Err(RenderError::DeviceLost(message));
         }
         // Memory first: running out of it makes later calls invalid.
@@ -119,10 +98,7 @@ impl Device {
     /// Waits until everything submitted is done.
     pub(super) fn wait(&self) -> Result<(), RenderError> {
         const PATIENCE: std::time::Duration = std::time::Duration::from_secs(600);
-        let wait = wgpu::PollType::Wait {
-            submission_index: None,
-            timeout: Some(PATIENCE),
-        };
+        let wait = wgpu::PollType::Wait { submission_index: None, timeout: Some(PATIENCE) };
         match self.device.poll(wait) {
             Ok(_) => Ok(()),
             Err(error) => Err(RenderError::DeviceLost(error.to_string())),
@@ -130,22 +106,11 @@ impl Device {
     }
 
     /// Fails if a texture of this size is impossible.
-    pub(super) fn check_texture(
-        &self,
-        what: &str,
-        width: u32,
-        height: u32,
-    ) -> Result<(), RenderError> {
+    pub(super) fn check_texture(&self, what: &str, width: u32, height: u32) -> Result<(), RenderError> {
         if width == 0 || height == 0 {
-            return Err(RenderError::Job(format!(
-                "{what} has no pixels ({width} x {height})"
-            )));
+            return Err(RenderError::Job(format!("{what} has no pixels ({width} x {height})")));
         }
-        check(
-            what,
-            u64::from(width.max(height)),
-            u64::from(self.limits.max_texture_dimension_2d),
-        )
+        check(what, u64::from(width.max(height)), u64::from(self.limits.max_texture_dimension_2d))
     }
 
     /// A buffer with `contents`, padded to a multiple of 4 bytes.
@@ -191,11 +156,7 @@ impl Device {
         }
         self.device.create_texture(&wgpu::TextureDescriptor {
             label: Some(what),
-            size: wgpu::Extent3d {
-                width,
-                height,
-                depth_or_array_layers: 1,
-            },
+            size: wgpu::Extent3d { width, height, depth_or_array_layers: 1 },
             mip_level_count: levels,
             sample_count: samples,
             dimension: wgpu::TextureDimension::D2,
@@ -208,25 +169,14 @@ impl Device {
 
 /// Fails where `size` is over `limit`.
 pub(super) fn check(what: &str, size: u64, limit: u64) -> Result<(), RenderError> {
-    if size <= limit {
-        Ok(())
-    } else {
-        Err(RenderError::TooLarge {
-            what: what.to_owned(),
-            size,
-            limit,
-        })
-    }
+    if size <= limit { Ok(()) } else { Err(RenderError::TooLarge { what: what.to_owned(), size, limit }) }
 }
 
 fn convert(what: &str, error: &wgpu::Error) -> RenderError {
     match error {
         wgpu::Error::OutOfMemory { .. } => RenderError::OutOfMemory(what.to_owned()),
         wgpu::Error::Validation { description, .. } | wgpu::Error::Internal { description, .. } => {
-            RenderError::Rejected {
-                what: what.to_owned(),
-                message: description.trim().to_owned(),
-            }
+            RenderError::Rejected { what: what.to_owned(), message: description.trim().to_owned() }
         }
     }
 }

@@ -36,18 +36,11 @@ pub(super) fn from_name(name: &str) -> Option<TextureFormat> {
 
 /// The name of a format.
 pub(super) fn name_of(format: TextureFormat) -> &'static str {
-    NAMES
-        .iter()
-        .find(|(_, f)| *f == format)
-        .map_or("other", |(n, _)| n)
+    NAMES.iter().find(|(_, f)| *f == format).map_or("other", |(n, _)| n)
 }
 
 /// What a device made with `features` from `adapter` can do with a format.
-pub(super) fn abilities(
-    adapter: &wgpu::Adapter,
-    features: wgpu::Features,
-    format: TextureFormat,
-) -> Abilities {
+pub(super) fn abilities(adapter: &wgpu::Adapter, features: wgpu::Features, format: TextureFormat) -> Abilities {
     if !features.contains(format.required_features()) {
         return Abilities::default();
     }
@@ -62,8 +55,7 @@ pub(super) fn abilities(
         renderable: known.allowed_usages.contains(usages),
         filterable: flags.contains(wgpu::TextureFormatFeatureFlags::FILTERABLE),
         multisampled: flags.contains(
-            wgpu::TextureFormatFeatureFlags::MULTISAMPLE_X4
-                | wgpu::TextureFormatFeatureFlags::MULTISAMPLE_RESOLVE,
+            wgpu::TextureFormatFeatureFlags::MULTISAMPLE_X4 | wgpu::TextureFormatFeatureFlags::MULTISAMPLE_RESOLVE,
         ),
     }
 }
@@ -78,8 +70,7 @@ pub(super) fn choose(
         let format = from_name(name)?;
         let able = abilities(format);
         // Depth is compared, not interpolated.
-        let fits =
-            able.renderable && (!filtered || able.filterable || format.is_depth_stencil_format());
+        let fits = able.renderable && (!filtered || able.filterable || format.is_depth_stencil_format());
         fits.then_some((i, format))
     })
 }
@@ -111,16 +102,11 @@ pub(super) fn decode(format: TextureFormat, texel: &[u8]) -> [f32; 4] {
     let mut color = [0.0, 0.0, 0.0, 1.0];
     let channels = channels(format);
     let bytes = texel_bytes(format) as usize / channels;
-    for (value, part) in color
-        .iter_mut()
-        .zip(texel.chunks_exact(bytes))
-        .take(channels)
-    {
+    for (value, part) in color.iter_mut().zip(texel.chunks_exact(bytes)).take(channels) {
         *value = match (format, part) {
-            (
-                TextureFormat::R16Float | TextureFormat::Rg16Float | TextureFormat::Rgba16Float,
-                &[a, b],
-            ) => f16::from_le_bytes([a, b]).to_f32(),
+            (TextureFormat::R16Float | TextureFormat::Rg16Float | TextureFormat::Rgba16Float, &[a, b]) => {
+                f16::from_le_bytes([a, b]).to_f32()
+            }
             (_, &[a]) => f32::from(a) / 255.0,
             (_, &[a, b]) => f32::from(u16::from_le_bytes([a, b])) / 65535.0,
             (_, &[a, b, c, d]) => f32::from_le_bytes([a, b, c, d]),
@@ -135,88 +121,43 @@ mod tests {
     use super::*;
 
     fn names() -> Vec<String> {
-        ["rg32float", "rg16unorm", "rg16float"]
-            .map(String::from)
-            .to_vec()
+        ["rg32float", "rg16unorm", "rg16float"].map(String::from).to_vec()
     }
 
-    const ALL: Abilities = Abilities {
-        renderable: true,
-        filterable: true,
-        multisampled: true,
-    };
+    const ALL: Abilities = Abilities { renderable: true, filterable: true, multisampled: true };
 
     #[test]
     fn the_first_format_wins_where_everything_works() {
-        assert_eq!(
-            choose(&names(), true, &|_| ALL),
-            Some((0, TextureFormat::Rg32Float))
-        );
+        assert_eq!(choose(&names(), true, &|_| ALL), Some((0, TextureFormat::Rg32Float)));
     }
 
     #[test]
     fn a_format_that_cannot_be_interpolated_is_passed_over_only_if_it_has_to_be() {
-        let no_float_filter = |f| Abilities {
-            filterable: f != TextureFormat::Rg32Float,
-            ..ALL
-        };
-        assert_eq!(
-            choose(&names(), true, &no_float_filter),
-            Some((1, TextureFormat::Rg16Unorm))
-        );
-        assert_eq!(
-            choose(&names(), false, &no_float_filter),
-            Some((0, TextureFormat::Rg32Float))
-        );
+        let no_float_filter = |f| Abilities { filterable: f != TextureFormat::Rg32Float, ..ALL };
+        assert_eq!(choose(&names(), true, &no_float_filter), Some((1, TextureFormat::Rg16Unorm)));
+        assert_eq!(choose(&names(), false, &no_float_filter), Some((0, TextureFormat::Rg32Float)));
     }
 
     #[test]
     fn nothing_is_chosen_where_nothing_can_be_rendered_or_the_name_is_unknown() {
-        assert_eq!(
-            choose(&names(), false, &|_| Abilities {
-                renderable: false,
-                ..ALL
-            }),
-            None
-        );
+        assert_eq!(choose(&names(), false, &|_| Abilities { renderable: false, ..ALL }), None);
         assert_eq!(choose(&["rg12float".into()], false, &|_| ALL), None);
     }
 
     #[test]
     fn depth_needs_no_interpolation() {
         let depth = ["depth32float".to_owned()];
-        let able = |_| Abilities {
-            filterable: false,
-            ..ALL
-        };
-        assert_eq!(
-            choose(&depth, true, &able),
-            Some((0, TextureFormat::Depth32Float))
-        );
+        let able = |_| Abilities { filterable: false, ..ALL };
+        assert_eq!(choose(&depth, true, &able), Some((0, TextureFormat::Depth32Float)));
     }
 
     #[test]
     fn texels_are_decoded_by_format() {
-        assert_eq!(
-            decode(TextureFormat::Rg16Unorm, &[0xff, 0xff, 0, 0]),
-            [1.0, 0.0, 0.0, 1.0]
-        );
-        assert_eq!(
-            decode(TextureFormat::R32Float, &0.25_f32.to_le_bytes()),
-            [0.25, 0.0, 0.0, 1.0]
-        );
-        let half: Vec<u8> = [2.0, 0.5]
-            .iter()
-            .flat_map(|x| f16::from_f32(*x).to_le_bytes())
-            .collect();
-        assert_eq!(
-            decode(TextureFormat::Rg16Float, &half),
-            [2.0, 0.5, 0.0, 1.0]
-        );
-        assert_eq!(
-            decode(TextureFormat::Rgba8Unorm, &[255, 0, 51, 0]),
-            [1.0, 0.0, 0.2, 0.0]
-        );
+        assert_eq!(decode(TextureFormat::Rg16Unorm, &[0xff, 0xff, 0, 0]), [1.0, 0.0, 0.0, 1.0]);
+        assert_eq!(decode(TextureFormat::R32Float, &0.25_f32.to_le_bytes()), [0.25, 0.0, 0.0, 1.0]);
+        let half: Vec<u8> = [2.0, 0.5].iter().flat_map(|x| f16::from_f32(*x).to_le_bytes()).collect();
+        assert_eq!(decode(TextureFormat::Rg16Float, &half), [2.0, 0.5, 0.0, 1.0]);
+        assert_eq!(decode(TextureFormat::Rgba8Unorm, &[255, 0, 51, 0]), [1.0, 0.0, 0.2, 0.0]);
     }
 
     #[test]
@@ -224,11 +165,7 @@ mod tests {
         for (name, format) in NAMES {
             assert_eq!(from_name(name), Some(*format));
             assert_eq!(name_of(*format), *name);
-            assert_eq!(
-                texel_bytes(*format) as usize % channels(*format),
-                0,
-                "{name}"
-            );
+            assert_eq!(texel_bytes(*format) as usize % channels(*format), 0, "{name}");
         }
     }
 }

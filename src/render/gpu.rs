@@ -26,10 +26,7 @@ pub struct Gpu {
 impl Gpu {
     /// Opens the adapter that the options ask for.
     pub fn new(options: &AdapterOptions) -> Result<Self, RenderError> {
-        Ok(Self {
-            device: Device::open(options)?,
-            pipelines: Pipelines::default(),
-        })
+        Ok(Self { device: Device::open(options)?, pipelines: Pipelines::default() })
     }
 
     /// What it runs on.
@@ -48,28 +45,15 @@ impl Gpu {
         let (device, pipelines) = (&self.device, &mut self.pipelines);
         device.check_texture("the picture", job.size.0, job.size.1)?;
         if !matches!(job.samples, 1 | 4) {
-            return Err(RenderError::Job(format!(
-                "{} samples per pixel: only 1 and 4 are possible",
-                job.samples
-            )));
+            return Err(RenderError::Job(format!("{} samples per pixel: only 1 and 4 are possible", job.samples)));
         }
         let mut lights = LightPlans::gather(device, job)?;
         let mut messages = std::mem::take(&mut lights.messages);
-        let target = choose_target(
-            job.output,
-            job.samples,
-            &|f| device.abilities(f),
-            &mut messages,
-        )?;
+        let target = choose_target(job.output, job.samples, &|f| device.abilities(f), &mut messages)?;
         let pixels = u64::from(job.size.0) * u64::from(job.size.1);
-        let picture_bytes =
-            u64::from(target.samples + 1) * u64::from(texel_bytes(target.format) + 4);
+        let picture_bytes = u64::from(target.samples + 1) * u64::from(texel_bytes(target.format) + 4);
         let map_bytes: u64 = lights.maps.iter().map(MapPlan::bytes).sum();
-        check(
-            "the memory for the picture and its maps",
-            pixels * picture_bytes + map_bytes,
-            MOST_BYTES,
-        )?;
+        check("the memory for the picture and its maps", pixels * picture_bytes + map_bytes, MOST_BYTES)?;
 
         lights.build(device, pipelines)?;
         let mut main = Vec::new();
@@ -85,81 +69,35 @@ impl Gpu {
         };
         device.scoped("the picture", || {
             let mut uploads = Uploads::new(device);
-            let mut timer = Timer::new(
-                device,
-                lights.maps.iter().map(|m| m.passes.len()).sum::<usize>() + 1,
-            );
-            let mut encoder = device
-                .device
-                .create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
+            let mut timer = Timer::new(device, lights.maps.iter().map(|m| m.passes.len()).sum::<usize>() + 1);
+            let mut encoder = device.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
             let objects = objects(device, job)?;
             let mut maps = Vec::new();
             for map in &lights.maps {
-                maps.push(map.render(
-                    device,
-                    &mut encoder,
-                    &mut timer,
-                    &job.draws,
-                    &objects,
-                    &mut uploads,
-                )?);
+                maps.push(map.render(device, &mut encoder, &mut timer, &job.draws, &objects, &mut uploads)?);
             }
             timer.next("main".into());
-            let prepared = Main {
-                job,
-                target,
-                lights: &lights,
-                maps: &maps,
-                objects: &objects,
-            };
-            let picture = prepared.render(
-                device,
-                &mut encoder,
-                &timer,
-                &main,
-                background.as_deref(),
-                &mut uploads,
-            )?;
+            let prepared = Main { job, target, lights: &lights, maps: &maps, objects: &objects };
+            let picture = prepared.render(device, &mut encoder, &timer, &main, background.as_deref(), &mut uploads)?;
             device.queue.submit([encoder.finish()]);
             let pixels = read_back::texture(device, &picture)?;
             let timings = timer.finish(device)?;
             add_new(&mut messages, uploads.messages);
-            Ok(Frame {
-                size: job.size,
-                pixels,
-                timings,
-                adapter: device.summary.clone(),
-                messages,
-            })
+            Ok(Frame { size: job.size, pixels, timings, adapter: device.summary.clone(), messages })
         })
     }
 
     /// Renders a map of a light and reads it back: the one at `index` among the distinct maps of that light.
-    pub fn map(
-        &mut self,
-        job: &Job<'_>,
-        light: &str,
-        index: usize,
-    ) -> Result<MapPicture, RenderError> {
+    pub fn map(&mut self, job: &Job<'_>, light: &str, index: usize) -> Result<MapPicture, RenderError> {
         let device = &self.device;
         let mut lights = LightPlans::gather(device, job)?;
-        let position = lights
-            .maps
-            .iter()
-            .enumerate()
-            .filter(|(_, m)| m.light == light)
-            .nth(index)
-            .map(|(i, _)| i);
+        let position = lights.maps.iter().enumerate().filter(|(_, m)| m.light == light).nth(index).map(|(i, _)| i);
         let Some(position) = position else {
             let mut names: Vec<&str> = lights.maps.iter().map(|m| m.light).collect();
             names.dedup();
             return Err(RenderError::Job(format!(
                 "light `{light}` has no map {index}; lights with maps: {}",
-                if names.is_empty() {
-                    "none".to_owned()
-                } else {
-                    names.join(", ")
-                }
+                if names.is_empty() { "none".to_owned() } else { names.join(", ") }
             )));
         };
         lights.maps.swap(0, position);
@@ -171,18 +109,9 @@ impl Gpu {
         device.scoped("the map", || {
             let mut uploads = Uploads::new(device);
             let mut timer = Timer::new(device, map.passes.len());
-            let mut encoder = device
-                .device
-                .create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
+            let mut encoder = device.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
             let objects = objects(device, job)?;
-            let texture = map.render(
-                device,
-                &mut encoder,
-                &mut timer,
-                &job.draws,
-                &objects,
-                &mut uploads,
-            )?;
+            let texture = map.render(device, &mut encoder, &mut timer, &job.draws, &objects, &mut uploads)?;
             device.queue.submit([encoder.finish()]);
             let pixels = read_back::texture(device, &texture)?;
             add_new(&mut messages, uploads.messages);
@@ -212,15 +141,9 @@ fn objects(device: &Device, job: &Job<'_>) -> Result<Vec<wgpu::Buffer>, RenderEr
     let block = |draw| device.buffer("object", wgpu::BufferUsages::UNIFORM, &object_block(draw)?);
     for draw in &job.draws {
         let vertices = draw.mesh.positions.len();
-        let stray = draw
-            .mesh
-            .indices
-            .iter()
-            .find(|i| usize::try_from(**i).is_ok_and(|i| i >= vertices));
+        let stray = draw.mesh.indices.iter().find(|i| usize::try_from(**i).is_ok_and(|i| i >= vertices));
         if let Some(index) = stray {
-            return Err(RenderError::Job(format!(
-                "a mesh of {vertices} vertices mentions vertex {index}"
-            )));
+            return Err(RenderError::Job(format!("a mesh of {vertices} vertices mentions vertex {index}")));
         }
     }
     job.draws.iter().map(block).collect()
@@ -233,34 +156,19 @@ fn choose_target(
     abilities: &dyn Fn(TextureFormat) -> Abilities,
     messages: &mut Vec<String>,
 ) -> Result<Target, RenderError> {
-    let all = [
-        TextureFormat::Rgba32Float,
-        TextureFormat::Rgba16Float,
-        TextureFormat::Rgba8Unorm,
-    ];
-    let candidates = if output == ColorFormat::Float {
-        &all[..]
-    } else {
-        &all[1..]
-    };
+    let all = [TextureFormat::Rgba32Float, TextureFormat::Rgba16Float, TextureFormat::Rgba8Unorm];
+    let candidates = if output == ColorFormat::Float { &all[..] } else { &all[1..] };
     // Losing precision hurts less than losing the edges that four samples smooth.
     let able = |f: &&TextureFormat, samples| {
         let able = abilities(**f);
         able.renderable && (samples == 1 || able.multisampled)
     };
-    let mut found = candidates
-        .iter()
-        .find(|f| able(f, samples))
-        .map(|&format| Target { format, samples });
+    let mut found = candidates.iter().find(|f| able(f, samples)).map(|&format| Target { format, samples });
     if found.is_none() && samples > 1 {
-        found = candidates
-            .iter()
-            .find(|f| able(f, 1))
-            .map(|&format| Target { format, samples: 1 });
+        found = candidates.iter().find(|f| able(f, 1)).map(|&format| Target { format, samples: 1 });
     }
-    let target = found.ok_or_else(|| {
-        RenderError::Unsupported("the adapter cannot render to any colour format".into())
-    })?;
+    let target =
+        found.ok_or_else(|| RenderError::Unsupported("the adapter cannot render to any colour format".into()))?;
     if target.format != candidates[0] {
         messages.push(format!(
             "the picture is made in {}: the adapter cannot render {} with {samples} samples per pixel",
@@ -269,9 +177,7 @@ fn choose_target(
         ));
     }
     if target.samples != samples {
-        messages.push(format!(
-            "the adapter cannot render {samples} samples per pixel; there is one"
-        ));
+        messages.push(format!("the adapter cannot render {samples} samples per pixel; there is one"));
     }
     Ok(target)
 }
@@ -280,57 +186,22 @@ fn choose_target(
 mod tests {
     use super::*;
 
-    fn target(
-        output: ColorFormat,
-        samples: u32,
-        abilities: &dyn Fn(TextureFormat) -> Abilities,
-    ) -> (Target, usize) {
+    fn target(output: ColorFormat, samples: u32, abilities: &dyn Fn(TextureFormat) -> Abilities) -> (Target, usize) {
         let mut messages = Vec::new();
-        (
-            choose_target(output, samples, abilities, &mut messages).expect("a target"),
-            messages.len(),
-        )
+        (choose_target(output, samples, abilities, &mut messages).expect("a target"), messages.len())
     }
 
     #[test]
     fn targets_give_up_precision_before_samples_and_say_so() {
-        let all = Abilities {
-            renderable: true,
-            filterable: true,
-            multisampled: true,
-        };
-        let float = Target {
-            format: TextureFormat::Rgba32Float,
-            samples: 4,
-        };
+        let all = Abilities { renderable: true, filterable: true, multisampled: true };
+        let float = Target { format: TextureFormat::Rgba32Float, samples: 4 };
         assert_eq!(target(ColorFormat::Float, 4, &|_| all), (float, 0));
-        let portable = |f| Abilities {
-            multisampled: f != TextureFormat::Rgba32Float,
-            ..all
-        };
-        let half = Target {
-            format: TextureFormat::Rgba16Float,
-            samples: 4,
-        };
+        let portable = |f| Abilities { multisampled: f != TextureFormat::Rgba32Float, ..all };
+        let half = Target { format: TextureFormat::Rgba16Float, samples: 4 };
         assert_eq!(target(ColorFormat::Float, 4, &portable), (half, 1));
-        assert_eq!(
-            target(ColorFormat::Float, 1, &portable),
-            (
-                Target {
-                    samples: 1,
-                    ..float
-                },
-                0
-            )
-        );
-        let single = |_| Abilities {
-            multisampled: false,
-            ..all
-        };
-        assert_eq!(
-            target(ColorFormat::Half, 4, &single),
-            (Target { samples: 1, ..half }, 1)
-        );
+        assert_eq!(target(ColorFormat::Float, 1, &portable), (Target { samples: 1, ..float }, 0));
+        let single = |_| Abilities { multisampled: false, ..all };
+        assert_eq!(target(ColorFormat::Half, 4, &single), (Target { samples: 1, ..half }, 1));
     }
 
     #[test]

@@ -3,9 +3,7 @@
 use std::io::{Cursor, Write};
 use std::path::Path;
 
-use exr::prelude::{
-    Encoding, Image, Layer, LayerAttributes, SpecificChannels, Text, WritableImage,
-};
+use exr::prelude::{Encoding, Image, Layer, LayerAttributes, SpecificChannels, Text, WritableImage};
 use image::ImageEncoder;
 
 use super::picture_levels::{encode_srgb, to_byte};
@@ -67,11 +65,7 @@ impl Display {
     /// 8-bit sRGB with straight alpha, of linear colour with premultiplied coverage.
     pub fn apply(&self, [r, g, b, a]: [f32; 4]) -> [u8; 4] {
         let coverage = a.clamp(0.0, 1.0);
-        let scale = if coverage > 0.0 {
-            self.exposure.exp2() / coverage
-        } else {
-            0.0
-        };
+        let scale = if coverage > 0.0 { self.exposure.exp2() / coverage } else { 0.0 };
         let channel = |x: f32| to_byte(encode_srgb(self.tone.apply(x * scale)));
         [channel(r), channel(g), channel(b), to_byte(coverage)]
     }
@@ -95,16 +89,12 @@ pub fn encode_png(
     // Says that the values are sRGB, to be shown without compromise (rendering intent 0).
     push_chunk(&mut chunks, *b"sRGB", &[0]);
     for (keyword, text) in notes {
-        if (1..=79).contains(&keyword.len())
-            && keyword.chars().all(|c| c == ' ' || c.is_ascii_graphic())
-        {
+        if (1..=79).contains(&keyword.len()) && keyword.chars().all(|c| c == ' ' || c.is_ascii_graphic()) {
             // Keyword, end, not compressed (two bytes), no language, no translated keyword, text.
             let data = [keyword.as_bytes(), &[0, 0, 0, 0, 0], text.as_bytes()].concat();
             push_chunk(&mut chunks, *b"iTXt", &data);
         } else {
-            return Err(ImageFileError::Encode(format!(
-                "`{keyword}` cannot be a keyword"
-            )));
+            return Err(ImageFileError::Encode(format!("`{keyword}` cannot be a keyword")));
         }
     }
     file.splice(33..33, chunks);
@@ -125,11 +115,7 @@ fn crc32<'a>(bytes: impl Iterator<Item = &'a u8>) -> u32 {
     for byte in bytes {
         crc ^= u32::from(*byte);
         for _ in 0..8 {
-            crc = if crc & 1 == 1 {
-                0xedb8_8320 ^ (crc >> 1)
-            } else {
-                crc >> 1
-            };
+            crc = if crc & 1 == 1 { 0xedb8_8320 ^ (crc >> 1) } else { crc >> 1 };
         }
     }
     !crc
@@ -144,39 +130,20 @@ pub fn encode_exr(
     check_size(size, pixels)?;
     let (width, height) = (size.0 as usize, size.1 as usize);
     // One comment rather than many attributes: those are written in no fixed order.
-    let comment: String = notes
-        .iter()
-        .map(|(keyword, text)| format!("{keyword}: {text}\n"))
-        .collect();
-    let comment: String = comment
-        .chars()
-        .map(|c| if c.is_ascii() { c } else { '?' })
-        .collect();
+    let comment: String = notes.iter().map(|(keyword, text)| format!("{keyword}: {text}\n")).collect();
+    let comment: String = comment.chars().map(|c| if c.is_ascii() { c } else { '?' }).collect();
     let attributes = LayerAttributes {
         software_name: Text::new_or_none("shadetree"),
-        comments: if comment.is_empty() {
-            None
-        } else {
-            Text::new_or_none(&comment)
-        },
+        comments: if comment.is_empty() { None } else { Text::new_or_none(&comment) },
         ..LayerAttributes::default()
     };
     let channels = SpecificChannels::rgba(|at: exr::math::Vec2<usize>| {
         let [r, g, b, a] = pixels.get(at.1 * width + at.0).copied().unwrap_or_default();
         (r, g, b, a)
     });
-    let picture = Image::from_layer(Layer::new(
-        (width, height),
-        attributes,
-        Encoding::SMALL_LOSSLESS,
-        channels,
-    ));
+    let picture = Image::from_layer(Layer::new((width, height), attributes, Encoding::SMALL_LOSSLESS, channels));
     let mut file = Cursor::new(Vec::new());
-    picture
-        .write()
-        .non_parallel()
-        .to_buffered(&mut file)
-        .map_err(|e| ImageFileError::Encode(e.to_string()))?;
+    picture.write().non_parallel().to_buffered(&mut file).map_err(|e| ImageFileError::Encode(e.to_string()))?;
     Ok(file.into_inner())
 }
 
@@ -188,10 +155,7 @@ pub fn write_png(
     display: &Display,
     notes: &[(String, String)],
 ) -> Result<(), ImageFileError> {
-    Ok(write_whole(
-        path,
-        &encode_png(size, pixels, display, notes)?,
-    )?)
+    Ok(write_whole(path, &encode_png(size, pixels, display, notes)?)?)
 }
 
 /// Writes an OpenEXR file; see [`encode_exr`].
@@ -212,15 +176,8 @@ pub fn write_whole(path: &Path, bytes: &[u8]) -> std::io::Result<()> {
         return std::fs::write(path, bytes);
     }
     // A link stays a link; what it points to is replaced.
-    let path = if old.is_some() {
-        std::fs::canonicalize(path)?
-    } else {
-        path.to_owned()
-    };
-    let folder = path
-        .parent()
-        .filter(|f| !f.as_os_str().is_empty())
-        .unwrap_or(Path::new("."));
+    let path = if old.is_some() { std::fs::canonicalize(path)? } else { path.to_owned() };
+    let folder = path.parent().filter(|f| !f.as_os_str().is_empty()).unwrap_or(Path::new("."));
     let mut builder = tempfile::Builder::new();
     builder.prefix(".shadetree-");
     #[cfg(unix)]
@@ -241,11 +198,7 @@ pub fn write_whole(path: &Path, bytes: &[u8]) -> std::io::Result<()> {
 
 fn check_size((width, height): (u32, u32), pixels: &[[f32; 4]]) -> Result<(), ImageFileError> {
     if pixels.is_empty() || pixels.len() as u64 != u64::from(width) * u64::from(height) {
-        return Err(ImageFileError::Size {
-            width,
-            height,
-            pixels: pixels.len(),
-        });
+        return Err(ImageFileError::Size { width, height, pixels: pixels.len() });
     }
     Ok(())
 }

@@ -25,16 +25,8 @@ impl LightSpace {
     /// As the shader reads it.
     pub fn to_bytes(&self) -> Vec<u8> {
         let columns = self.world_to_light.to_cols_array();
-        let rest = self
-            .projection
-            .to_array()
-            .into_iter()
-            .chain(self.depth.to_array());
-        columns
-            .into_iter()
-            .chain(rest)
-            .flat_map(f32::to_le_bytes)
-            .collect()
+        let rest = self.projection.to_array().into_iter().chain(self.depth.to_array());
+        columns.into_iter().chain(rest).flat_map(f32::to_le_bytes).collect()
     }
 }
 
@@ -54,11 +46,7 @@ impl Bounds {
         let high = finite().fold(low, Vec3::max);
         let corners: [Vec3; 8] = std::array::from_fn(|i| {
             let pick = |axis: usize| {
-                if i >> axis & 1 == 1 {
-                    high[axis]
-                } else {
-                    low[axis]
-                }
+                if i >> axis & 1 == 1 { high[axis] } else { low[axis] }
             };
             object_to_world.transform_point3(Vec3::new(pick(0), pick(1), pick(2)))
         });
@@ -74,10 +62,7 @@ impl Bounds {
             return (Vec3::ZERO, 1.0);
         };
         let center = (low + all().fold(low, Vec3::max)) * 0.5;
-        (
-            center,
-            all().map(|c| c.distance(center)).fold(0.0, f32::max),
-        )
+        (center, all().map(|c| c.distance(center)).fold(0.0, f32::max))
     }
 
     /// Least and greatest z, in a frame, of what lies in the column |x|, |y| <= `radius` of that frame. Both are 0 where
@@ -98,14 +83,7 @@ impl Bounds {
 }
 
 /// The faces of a box by the numbers of their corners, around each face.
-const FACES: [[usize; 4]; 6] = [
-    [0, 2, 6, 4],
-    [1, 3, 7, 5],
-    [0, 1, 5, 4],
-    [2, 3, 7, 6],
-    [0, 1, 3, 2],
-    [4, 5, 7, 6],
-];
+const FACES: [[usize; 4]; 6] = [[0, 2, 6, 4], [1, 3, 7, 5], [0, 1, 5, 4], [2, 3, 7, 6], [0, 1, 3, 2], [4, 5, 7, 6]];
 
 /// The part of a convex polygon with |x|, |y| <= `radius` (Sutherland and Hodgman 1974).
 fn clip_to_column(mut polygon: Vec<Vec3>, radius: f32) -> Vec<Vec3> {
@@ -134,21 +112,15 @@ pub fn light_space(
     value_of: &dyn Fn(&Parameter) -> Option<Value>,
     bounds: &Bounds,
 ) -> Result<LightSpace, RenderError> {
-    let space = light.space.as_ref().ok_or_else(|| {
-        RenderError::Job(format!("light `{}` has maps but no projection", light.name))
-    })?;
-    let inputs = Inputs {
-        paths: &space.inputs,
-        module,
-        value_of,
-    };
+    let space = light
+        .space
+        .as_ref()
+        .ok_or_else(|| RenderError::Job(format!("light `{}` has maps but no projection", light.name)))?;
+    let inputs = Inputs { paths: &space.inputs, module, value_of };
     match space.projection.as_str() {
         "perspective" => perspective(&inputs),
         "orthographic" => orthographic(&inputs, bounds),
-        other => Err(RenderError::Job(format!(
-            "light `{}`: `{other}` is not a projection",
-            light.name
-        ))),
+        other => Err(RenderError::Job(format!("light `{}`: `{other}` is not a projection", light.name))),
     }
 }
 
@@ -162,9 +134,7 @@ struct Inputs<'a> {
 impl Inputs<'_> {
     fn path(&self, index: usize) -> Result<&str, RenderError> {
         let path = self.paths.get(index).map(String::as_str);
-        path.ok_or_else(|| {
-            RenderError::Job(format!("a projection lacks its input number {}", index + 1))
-        })
+        path.ok_or_else(|| RenderError::Job(format!("a projection lacks its input number {}", index + 1)))
     }
 
     /// The components of an input, in the units of the shader, all finite.
@@ -175,14 +145,11 @@ impl Inputs<'_> {
             .parameters
             .iter()
             .find(|p| p.path == path)
-            .ok_or_else(|| {
-                self.refuse(index, "a light that makes maps needs a plain value here")
-            })?;
+            .ok_or_else(|| self.refuse(index, "a light that makes maps needs a plain value here"))?;
         let value = (self.value_of)(parameter).filter(|v| v.fits(&parameter.shape));
         let stored = parameter.stored(value.as_ref().unwrap_or(&parameter.value));
-        let numbers: [f64; N] = stored
-            .try_into()
-            .map_err(|_| self.refuse(index, &format!("{N} components are needed")))?;
+        let numbers: [f64; N] =
+            stored.try_into().map_err(|_| self.refuse(index, &format!("{N} components are needed")))?;
         if numbers.iter().all(|x| x.is_finite() && x.abs() < 1e12) {
             Ok(numbers)
         } else {
@@ -195,21 +162,15 @@ impl Inputs<'_> {
     }
 
     fn vector(&self, index: usize) -> Result<Vec3, RenderError> {
-        self.numbers::<3>(index)
-            .map(|v| Vec3::from_array(v.map(narrow)))
+        self.numbers::<3>(index).map(|v| Vec3::from_array(v.map(narrow)))
     }
 
     fn axis(&self, index: usize) -> Result<Vec3, RenderError> {
-        self.vector(index)?
-            .try_normalize()
-            .ok_or_else(|| self.refuse(index, "a direction cannot have length zero"))
+        self.vector(index)?.try_normalize().ok_or_else(|| self.refuse(index, "a direction cannot have length zero"))
     }
 
     fn refuse(&self, index: usize, message: &str) -> RenderError {
-        RenderError::Parameter {
-            path: self.paths.get(index).cloned().unwrap_or_default(),
-            message: message.to_owned(),
-        }
+        RenderError::Parameter { path: self.paths.get(index).cloned().unwrap_or_default(), message: message.to_owned() }
     }
 }
 
@@ -229,10 +190,7 @@ fn perspective(inputs: &Inputs<'_>) -> Result<LightSpace, RenderError> {
     let near = inputs.number(3)?;
     let far = inputs.number(4)?;
     if !OUTER_ANGLE.contains(&half_angle) {
-        return Err(inputs.refuse(
-            2,
-            "the cone of a light with maps must be between 0 and 89 degrees",
-        ));
+        return Err(inputs.refuse(2, "the cone of a light with maps must be between 0 and 89 degrees"));
     }
     if near <= 0.0 {
         return Err(inputs.refuse(3, "maps must begin in front of the light"));
@@ -279,11 +237,7 @@ fn depth_range(near: f32, far: f32) -> Vec4 {
 /// World to a frame at `origin` whose +z is the unit vector `axis` and whose +y is as near to world +y as can be.
 fn look_along(origin: Vec3, axis: Vec3) -> Mat4 {
     // Straight up or down has no nearest: world -z or +z then takes the place of up, continuously with a slight tilt.
-    let up = if axis.y.abs() > 0.9999 {
-        Vec3::new(0.0, 0.0, -axis.y.signum())
-    } else {
-        Vec3::Y
-    };
+    let up = if axis.y.abs() > 0.9999 { Vec3::new(0.0, 0.0, -axis.y.signum()) } else { Vec3::Y };
     let x = up.cross(axis).normalize();
     let y = axis.cross(x);
     let rotation = Mat4::from_cols(

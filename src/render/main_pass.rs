@@ -36,9 +36,7 @@ pub(super) fn main_spec(
     let mut bindings = Vec::new();
     for binding in &module.bindings {
         let ty = match &binding.resource {
-            Resource::Frame | Resource::Object | Resource::Parameters | Resource::Space { .. } => {
-                UNIFORM
-            }
+            Resource::Frame | Resource::Object | Resource::Parameters | Resource::Space { .. } => UNIFORM,
             Resource::Image { .. } | Resource::Environment => texture_type(filterable),
             Resource::Sampler(s) if s.compare => sampler(wgpu::SamplerBindingType::Comparison),
             Resource::Sampler(s) if s.linear || s.mip_linear || s.anisotropy > 1 => {
@@ -69,10 +67,7 @@ pub(super) fn main_spec(
 }
 
 fn missing_map(binding: &Binding) -> RenderError {
-    RenderError::Job(format!(
-        "`{}` is a map that the plan does not have",
-        binding.name
-    ))
+    RenderError::Job(format!("`{}` is a map that the plan does not have", binding.name))
 }
 
 /// The pipeline of the background.
@@ -84,11 +79,7 @@ pub(super) fn background_spec(target: Target) -> Spec {
         bindings: vec![
             (0, 0, UNIFORM),
             (0, 1, texture_type(filterable)),
-            (
-                0,
-                2,
-                BindingType::Sampler(wgpu::SamplerBindingType::Filtering),
-            ),
+            (0, 2, BindingType::Sampler(wgpu::SamplerBindingType::Filtering)),
         ],
         color: Some(target.format),
         depth: DepthUse::Ignore,
@@ -151,11 +142,7 @@ impl Main<'_> {
                 resolve_target: many_view.is_some().then_some(&picture_view),
                 ops: wgpu::Operations {
                     load: wgpu::LoadOp::Clear(wgpu::Color::TRANSPARENT),
-                    store: if many_view.is_some() {
-                        wgpu::StoreOp::Discard
-                    } else {
-                        wgpu::StoreOp::Store
-                    },
+                    store: if many_view.is_some() { wgpu::StoreOp::Discard } else { wgpu::StoreOp::Store },
                 },
             })],
             depth_stencil_attachment: Some(clear_depth(&depth_view, 1.0)),
@@ -166,15 +153,8 @@ impl Main<'_> {
             let (texture, sampler) = uploads.environment(self.job.surroundings)?;
             let block = background_block(&self.job.camera, size);
             let block = device.buffer("background", wgpu::BufferUsages::UNIFORM, &block)?;
-            let resources = [
-                Bound::Buffer(block),
-                Bound::Texture(texture),
-                Bound::Sampler(sampler),
-            ];
-            let resources: Vec<_> = (0..)
-                .zip(&resources)
-                .map(|(i, r)| (0, i, r.resource()))
-                .collect();
+            let resources = [Bound::Buffer(block), Bound::Texture(texture), Bound::Sampler(sampler)];
+            let resources: Vec<_> = (0..).zip(&resources).map(|(i, r)| (0, i, r.resource())).collect();
             pipeline.set(&mut pass, &pipeline.bind(device, &resources));
             pass.draw(0..3, 0..1);
         }
@@ -185,34 +165,15 @@ impl Main<'_> {
             let module = &draw.shader.module;
             let mut bound = Vec::new();
             for binding in &module.bindings {
-                bound.push((
-                    binding.group,
-                    binding.binding,
-                    self.bound(device, index, binding, &frame, uploads)?,
-                ));
+                bound.push((binding.group, binding.binding, self.bound(device, index, binding, &frame, uploads)?));
             }
-            let resources: Vec<_> = bound
-                .iter()
-                .map(|(g, b, r)| (*g, *b, r.resource()))
-                .collect();
+            let resources: Vec<_> = bound.iter().map(|(g, b, r)| (*g, *b, r.resource())).collect();
             pipeline.set(&mut pass, &pipeline.bind(device, &resources));
             for (slot, attribute) in (0..).zip(&module.attributes) {
-                pass.set_vertex_buffer(
-                    slot,
-                    uploads
-                        .attribute(draw.mesh, attribute.location())?
-                        .slice(..),
-                );
+                pass.set_vertex_buffer(slot, uploads.attribute(draw.mesh, attribute.location())?.slice(..));
             }
-            pass.set_index_buffer(
-                uploads.indices(draw.mesh)?.slice(..),
-                wgpu::IndexFormat::Uint32,
-            );
-            pass.draw_indexed(
-                0..u32::try_from(draw.mesh.indices.len()).unwrap_or(0),
-                0,
-                0..1,
-            );
+            pass.set_index_buffer(uploads.indices(draw.mesh)?.slice(..), wgpu::IndexFormat::Uint32);
+            pass.draw_indexed(0..u32::try_from(draw.mesh.indices.len()).unwrap_or(0), 0, 0..1);
         }
         drop(pass);
         Ok(picture)
@@ -227,25 +188,19 @@ impl Main<'_> {
         uploads: &mut Uploads<'_>,
     ) -> Result<Bound, RenderError> {
         let draw = &self.job.draws[index];
-        let uniform =
-            |bytes: &[u8]| device.buffer(&binding.name, wgpu::BufferUsages::UNIFORM, bytes);
+        let uniform = |bytes: &[u8]| device.buffer(&binding.name, wgpu::BufferUsages::UNIFORM, bytes);
         Ok(match &binding.resource {
             Resource::Frame => Bound::Buffer(frame.clone()),
             Resource::Object => Bound::Buffer(self.objects[index].clone()),
-            Resource::Parameters => Bound::Buffer(uniform(
-                &draw
-                    .shader
-                    .module
-                    .pack(&|p| draw.values.get(&p.path).cloned()),
-            )?),
+            Resource::Parameters => {
+                Bound::Buffer(uniform(&draw.shader.module.pack(&|p| draw.values.get(&p.path).cloned()))?)
+            }
             Resource::Image { path, base, srgb } => {
                 Bound::Texture(uploads.image(path, base, *srgb, self.job.images)?)
             }
             Resource::Sampler(settings) => Bound::Sampler(uploads.sampler(settings)?),
             Resource::Space { light } => {
-                let space = self.lights.spaces[index]
-                    .get(light.as_str())
-                    .map(LightSpace::to_bytes);
+                let space = self.lights.spaces[index].get(light.as_str()).map(LightSpace::to_bytes);
                 Bound::Buffer(uniform(&space.unwrap_or_default())?)
             }
             Resource::Map { index: map, .. } => {
@@ -254,9 +209,7 @@ impl Main<'_> {
                 Bound::Texture(texture.create_view(&wgpu::TextureViewDescriptor::default()))
             }
             Resource::Environment => Bound::Texture(uploads.environment(self.job.surroundings)?.0),
-            Resource::EnvironmentSampler => {
-                Bound::Sampler(uploads.environment(self.job.surroundings)?.1)
-            }
+            Resource::EnvironmentSampler => Bound::Sampler(uploads.environment(self.job.surroundings)?.1),
         })
     }
 }

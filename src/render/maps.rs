@@ -53,17 +53,11 @@ impl<'a> LightPlans<'a> {
             let mut map_of = Vec::new();
             for map in &draw.shader.plan.maps {
                 let space = spaces[map.light.as_str()];
-                let same = |m: &MapPlan<'_>| {
-                    m.light == map.light && m.space == space && m.passes == map.passes
-                };
+                let same = |m: &MapPlan<'_>| m.light == map.light && m.space == space && m.passes == map.passes;
                 let index = plans.maps.iter().position(same).unwrap_or(plans.maps.len());
                 if index == plans.maps.len() {
                     check_passes(&map.light, &map.passes)?;
-                    device.check_texture(
-                        &format!("a map of `{}`", map.light),
-                        map.size(),
-                        map.size(),
-                    )?;
+                    device.check_texture(&format!("a map of `{}`", map.light), map.size(), map.size())?;
                     plans.maps.push(MapPlan {
                         light: &map.light,
                         passes: &map.passes,
@@ -87,16 +81,11 @@ impl<'a> LightPlans<'a> {
     }
 
     /// Makes the pipelines of every pass.
-    pub(super) fn build(
-        &mut self,
-        device: &Device,
-        pipelines: &mut Pipelines,
-    ) -> Result<(), RenderError> {
+    pub(super) fn build(&mut self, device: &Device, pipelines: &mut Pipelines) -> Result<(), RenderError> {
         for map in &mut self.maps {
             for pass in map.passes {
                 let what = format!("pass `{}` of light `{}`", pass.name, map.light);
-                map.pipelines
-                    .push(pipelines.get(device, &what, map.spec(pass))?);
+                map.pipelines.push(pipelines.get(device, &what, map.spec(pass))?);
             }
         }
         Ok(())
@@ -104,25 +93,17 @@ impl<'a> LightPlans<'a> {
 }
 
 /// The spaces of the lights that a draw binds or has maps of.
-fn spaces_of<'a>(
-    draw: &'a Draw<'_>,
-    bounds: &Bounds,
-) -> Result<BTreeMap<&'a str, LightSpace>, RenderError> {
+fn spaces_of<'a>(draw: &'a Draw<'_>, bounds: &Bounds) -> Result<BTreeMap<&'a str, LightSpace>, RenderError> {
     let shader = draw.shader;
-    let bound = shader
-        .module
-        .bindings
-        .iter()
-        .filter_map(|b| match &b.resource {
-            Resource::Space { light } => Some(light.as_str()),
-            _ => None,
-        });
+    let bound = shader.module.bindings.iter().filter_map(|b| match &b.resource {
+        Resource::Space { light } => Some(light.as_str()),
+        _ => None,
+    });
     let mut spaces = BTreeMap::new();
     for name in bound.chain(shader.plan.maps.iter().map(|m| m.light.as_str())) {
         if !spaces.contains_key(name) {
             let light = shader.plan.lights.iter().find(|l| l.name == name);
-            let light =
-                light.ok_or_else(|| RenderError::Job(format!("the plan has no light `{name}`")))?;
+            let light = light.ok_or_else(|| RenderError::Job(format!("the plan has no light `{name}`")))?;
             let value_of = |p: &crate::module::Parameter| draw.values.get(&p.path).cloned();
             spaces.insert(name, light_space(light, &shader.module, &value_of, bounds)?);
         }
@@ -138,11 +119,7 @@ fn check_passes(light: &str, passes: &[Pass]) -> Result<(), RenderError> {
         PassKind::Mip => 2,
     };
     let drawn = passes.first().is_some_and(|p| p.kind == PassKind::Geometry);
-    let once = passes
-        .iter()
-        .filter(|p| p.kind == PassKind::Geometry)
-        .count()
-        == 1;
+    let once = passes.iter().filter(|p| p.kind == PassKind::Geometry).count() == 1;
     let mips = passes.iter().filter(|p| p.kind == PassKind::Mip).count() <= 1;
     if drawn && once && mips && passes.is_sorted_by_key(rank) {
         Ok(())
@@ -155,19 +132,11 @@ fn check_passes(light: &str, passes: &[Pass]) -> Result<(), RenderError> {
 
 impl MapPlan<'_> {
     /// Takes the first format that the adapter can make, and that all passes can write.
-    fn choose_format(
-        &mut self,
-        device: &Device,
-        messages: &mut Vec<String>,
-    ) -> Result<(), RenderError> {
+    fn choose_format(&mut self, device: &Device, messages: &mut Vec<String>) -> Result<(), RenderError> {
         let names: Vec<String> = self.passes[0]
             .targets
             .iter()
-            .filter(|name| {
-                self.passes
-                    .iter()
-                    .all(|p| p.targets.is_empty() || p.targets.contains(name))
-            })
+            .filter(|name| self.passes.iter().all(|p| p.targets.is_empty() || p.targets.contains(name)))
             .cloned()
             .collect();
         let chosen = format::choose(&names, self.filtered, &|f| device.abilities(f));
@@ -189,11 +158,7 @@ impl MapPlan<'_> {
                 "the map of light `{}` is made in {}: the adapter cannot {} {}",
                 self.light,
                 names[position],
-                if self.filtered {
-                    "render and filter"
-                } else {
-                    "render"
-                },
+                if self.filtered { "render and filter" } else { "render" },
                 names[..position].join(", ")
             ));
         }
@@ -207,11 +172,9 @@ impl MapPlan<'_> {
 
     fn spec(&self, pass: &Pass) -> Spec {
         let (locations, bindings, depth) = match pass.kind {
-            PassKind::Geometry => (
-                vec![Attribute::Position.location()],
-                vec![(0, 0, UNIFORM), (1, 0, UNIFORM)],
-                DepthUse::Nearest,
-            ),
+            PassKind::Geometry => {
+                (vec![Attribute::Position.location()], vec![(0, 0, UNIFORM), (1, 0, UNIFORM)], DepthUse::Nearest)
+            }
             PassKind::Image | PassKind::Mip => {
                 let source = texture_type(wgpu::TextureSampleType::Float { filterable: false });
                 (Vec::new(), vec![(0, 0, source)], DepthUse::None)
@@ -230,11 +193,7 @@ impl MapPlan<'_> {
 
     /// Number of mip levels.
     fn levels(&self) -> u32 {
-        if self.passes.iter().any(|p| p.kind == PassKind::Mip) {
-            self.size.ilog2() + 1
-        } else {
-            1
-        }
+        if self.passes.iter().any(|p| p.kind == PassKind::Mip) { self.size.ilog2() + 1 } else { 1 }
     }
 
     /// Bytes that the map and its helpers take at most.
@@ -252,33 +211,15 @@ impl MapPlan<'_> {
         objects: &[wgpu::Buffer],
         uploads: &mut Uploads<'_>,
     ) -> Result<wgpu::Texture, RenderError> {
-        let images = self
-            .passes
-            .iter()
-            .filter(|p| p.kind == PassKind::Image)
-            .count();
-        let make =
-            |levels| device.target(self.light, (self.size, self.size), self.format, 1, levels);
+        let images = self.passes.iter().filter(|p| p.kind == PassKind::Image).count();
+        let make = |levels| device.target(self.light, (self.size, self.size), self.format, 1, levels);
         // The passes go to and fro between two textures; the last one writes the one with mip levels.
         let result = make(self.levels());
         let other = if images > 0 { Some(make(1)) } else { None };
-        let at = |remaining: usize| {
-            other
-                .as_ref()
-                .filter(|_| remaining % 2 == 1)
-                .unwrap_or(&result)
-        };
+        let at = |remaining: usize| other.as_ref().filter(|_| remaining % 2 == 1).unwrap_or(&result);
         let mut remaining = images;
         timer.next(self.label(0));
-        self.draw_casters(
-            device,
-            encoder,
-            timer,
-            at(remaining),
-            draws,
-            objects,
-            uploads,
-        )?;
+        self.draw_casters(device, encoder, timer, at(remaining), draws, objects, uploads)?;
         for (index, pass) in self.passes.iter().enumerate().skip(1) {
             let pipeline = &self.pipelines[index];
             match pass.kind {
@@ -287,14 +228,7 @@ impl MapPlan<'_> {
                     timer.next(self.label(index));
                     let (from, to) = (level(at(remaining), 0), level(at(remaining - 1), 0));
                     remaining -= 1;
-                    full_screen(
-                        device,
-                        encoder,
-                        timer.writes(true, true),
-                        pipeline,
-                        &from,
-                        &to,
-                    );
+                    full_screen(device, encoder, timer.writes(true, true), pipeline, &from, &to);
                 }
                 PassKind::Mip => {
                     timer.next(self.label(index));
@@ -313,17 +247,11 @@ impl MapPlan<'_> {
     fn label(&self, index: usize) -> String {
         let pass = &self.passes[index];
         // Passes that run once per axis are told apart.
-        let axis = pass
-            .choices
-            .get("axis")
-            .map_or(String::new(), |a| format!(" {a}"));
+        let axis = pass.choices.get("axis").map_or(String::new(), |a| format!(" {a}"));
         format!("{}: {}{axis}", self.light, pass.name)
     }
 
-    #[allow(
-        clippy::too_many_arguments,
-        reason = "one call site; the arguments have no common owner"
-    )]
+    #[allow(clippy::too_many_arguments, reason = "one call site; the arguments have no common owner")]
     fn draw_casters(
         &self,
         device: &Device,
@@ -337,43 +265,21 @@ impl MapPlan<'_> {
         let clear = &self.passes[0].clear;
         let channel = |i: usize| clear.get(i).copied().unwrap_or(0.0);
         let target_view = level(target, 0);
-        let beside = (!self.is_depth()).then(|| {
-            device.target(
-                "depth",
-                (self.size, self.size),
-                TextureFormat::Depth32Float,
-                1,
-                1,
-            )
-        });
-        let depth_view = beside
-            .as_ref()
-            .map_or_else(|| target_view.clone(), |t| level(t, 0));
+        let beside = (!self.is_depth())
+            .then(|| device.target("depth", (self.size, self.size), TextureFormat::Depth32Float, 1, 1));
+        let depth_view = beside.as_ref().map_or_else(|| target_view.clone(), |t| level(t, 0));
         let color = (!self.is_depth()).then(|| wgpu::RenderPassColorAttachment {
             view: &target_view,
             depth_slice: None,
             resolve_target: None,
             ops: wgpu::Operations {
-                load: wgpu::LoadOp::Clear(wgpu::Color {
-                    r: channel(0),
-                    g: channel(1),
-                    b: channel(2),
-                    a: channel(3),
-                }),
+                load: wgpu::LoadOp::Clear(wgpu::Color { r: channel(0), g: channel(1), b: channel(2), a: channel(3) }),
                 store: wgpu::StoreOp::Store,
             },
         });
-        let farthest = if self.is_depth() {
-            clear.first().copied().unwrap_or(1.0)
-        } else {
-            1.0
-        };
+        let farthest = if self.is_depth() { clear.first().copied().unwrap_or(1.0) } else { 1.0 };
         let colors: &[_] = if color.is_some() { &[color] } else { &[] };
-        let space = device.buffer(
-            "light space",
-            wgpu::BufferUsages::UNIFORM,
-            &self.space.to_bytes(),
-        )?;
+        let space = device.buffer("light space", wgpu::BufferUsages::UNIFORM, &self.space.to_bytes())?;
         let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
             label: Some(&self.passes[0].name),
             color_attachments: colors,
@@ -381,47 +287,27 @@ impl MapPlan<'_> {
             timestamp_writes: timer.writes(true, true),
             ..wgpu::RenderPassDescriptor::default()
         });
-        for (draw, object) in draws
-            .iter()
-            .zip(objects)
-            .filter(|(d, _)| d.casts && !d.mesh.indices.is_empty())
-        {
+        for (draw, object) in draws.iter().zip(objects).filter(|(d, _)| d.casts && !d.mesh.indices.is_empty()) {
             // Both sides cast, so it does not matter whether the object is mirrored.
             let pipeline = &self.pipelines[0];
-            let resources = [
-                (0, 0, space.as_entire_binding()),
-                (1, 0, object.as_entire_binding()),
-            ];
+            let resources = [(0, 0, space.as_entire_binding()), (1, 0, object.as_entire_binding())];
             pipeline.set(&mut pass, &pipeline.bind(device, &resources));
             let positions = uploads.attribute(draw.mesh, Attribute::Position.location())?;
             pass.set_vertex_buffer(0, positions.slice(..));
-            pass.set_index_buffer(
-                uploads.indices(draw.mesh)?.slice(..),
-                wgpu::IndexFormat::Uint32,
-            );
-            pass.draw_indexed(
-                0..u32::try_from(draw.mesh.indices.len()).unwrap_or(0),
-                0,
-                0..1,
-            );
+            pass.set_index_buffer(uploads.indices(draw.mesh)?.slice(..), wgpu::IndexFormat::Uint32);
+            pass.draw_indexed(0..u32::try_from(draw.mesh.indices.len()).unwrap_or(0), 0, 0..1);
         }
         Ok(())
     }
 }
 
 /// A depth buffer that starts at `value`.
-pub(super) fn clear_depth(
-    view: &wgpu::TextureView,
-    value: f64,
-) -> wgpu::RenderPassDepthStencilAttachment<'_> {
+pub(super) fn clear_depth(view: &wgpu::TextureView, value: f64) -> wgpu::RenderPassDepthStencilAttachment<'_> {
     #[allow(clippy::cast_possible_truncation, reason = "depth is f32")]
     let value = value.clamp(0.0, 1.0) as f32;
     wgpu::RenderPassDepthStencilAttachment {
         view,
-        depth_ops: Some(wgpu::Operations {
-            load: wgpu::LoadOp::Clear(value),
-            store: wgpu::StoreOp::Store,
-        }),
+        depth_ops: Some(wgpu::Operations { load: wgpu::LoadOp::Clear(value), store: wgpu::StoreOp::Store }),
         stencil_ops: None,
     }
 }

@@ -25,8 +25,8 @@ pub use error::RenderError;
 pub use format::Abilities;
 pub use gpu::Gpu;
 pub use job::{
-    ColorFormat, Draw, Frame, ImageLoader, Job, MapPicture, PassTiming, Picture, Surroundings,
-    SurroundingsLevel, Texels,
+    ColorFormat, Draw, Frame, ImageLoader, Job, MapPicture, PassTiming, Picture, Surroundings, SurroundingsLevel,
+    Texels,
 };
 pub use light_space::{Bounds, LIGHT_SPACE_BYTES, LightSpace, light_space};
 

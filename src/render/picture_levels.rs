@@ -13,11 +13,7 @@ pub(super) fn levels(picture: &Picture, srgb: bool) -> Vec<Picture> {
             Texels::Floats(_) => Texels::Floats(current.clone()),
             Texels::Bytes(_) => Texels::Bytes(current.iter().map(|c| to_bytes(*c, srgb)).collect()),
         };
-        all.push(Picture {
-            width,
-            height,
-            texels,
-        });
+        all.push(Picture { width, height, texels });
     }
     all
 }
@@ -29,51 +25,31 @@ fn to_linear(picture: &Picture, srgb: bool) -> Vec<[f32; 4]> {
             .iter()
             .map(|t| {
                 let [r, g, b, a] = t.map(|x| f32::from(x) / 255.0);
-                if srgb {
-                    [decode_srgb(r), decode_srgb(g), decode_srgb(b), a]
-                } else {
-                    [r, g, b, a]
-                }
+                if srgb { [decode_srgb(r), decode_srgb(g), decode_srgb(b), a] } else { [r, g, b, a] }
             })
             .collect(),
     }
 }
 
 fn to_bytes([r, g, b, a]: [f32; 4], srgb: bool) -> [u8; 4] {
-    let encoded = if srgb {
-        [encode_srgb(r), encode_srgb(g), encode_srgb(b), a]
-    } else {
-        [r, g, b, a]
-    };
+    let encoded = if srgb { [encode_srgb(r), encode_srgb(g), encode_srgb(b), a] } else { [r, g, b, a] };
     encoded.map(to_byte)
 }
 
 /// The nearest 8-bit value; NaN is 0.
-#[allow(
-    clippy::cast_possible_truncation,
-    clippy::cast_sign_loss,
-    reason = "the value is clamped to the range of u8"
-)]
+#[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "the value is clamped to the range of u8")]
 pub(super) fn to_byte(x: f32) -> u8 {
     (x.clamp(0.0, 1.0) * 255.0).round() as u8
 }
 
 /// sRGB to linear (IEC 61966-2-1).
 pub(super) fn decode_srgb(x: f32) -> f32 {
-    if x <= 0.040_45 {
-        x / 12.92
-    } else {
-        ((x + 0.055) / 1.055).powf(2.4)
-    }
+    if x <= 0.040_45 { x / 12.92 } else { ((x + 0.055) / 1.055).powf(2.4) }
 }
 
 /// Linear to sRGB (IEC 61966-2-1).
 pub(super) fn encode_srgb(x: f32) -> f32 {
-    if x <= 0.003_130_8 {
-        x * 12.92
-    } else {
-        1.055 * x.powf(1.0 / 2.4) - 0.055
-    }
+    if x <= 0.003_130_8 { x * 12.92 } else { 1.055 * x.powf(1.0 / 2.4) - 0.055 }
 }
 
 /// The next level: sides halve, rounded down. Sides of odd length take three texels, each with the share that is covered.
@@ -98,10 +74,7 @@ fn halve(texels: &[[f32; 4]], width: u32, height: u32) -> (Vec<[f32; 4]>, u32, u
 }
 
 /// Texels along an axis of `size` that texel `i` of the next level covers, with their shares, which add up to 1.
-#[allow(
-    clippy::cast_precision_loss,
-    reason = "sizes of textures are far below 2^24"
-)]
+#[allow(clippy::cast_precision_loss, reason = "sizes of textures are far below 2^24")]
 fn shares(size: u32, i: u32) -> impl Iterator<Item = (u32, f32)> {
     let (first, weights) = match size {
         1 => (0, [1.0, 0.0, 0.0]),
@@ -120,20 +93,12 @@ mod tests {
 
     #[test]
     fn every_level_keeps_the_mean() {
-        let texels: Vec<[f32; 4]> = (0..35_u8)
-            .map(|i| [f32::from(i), 1.0, f32::from(i % 3), 0.5])
-            .collect();
-        let picture = Picture {
-            width: 7,
-            height: 5,
-            texels: Texels::Floats(texels),
-        };
+        let texels: Vec<[f32; 4]> = (0..35_u8).map(|i| [f32::from(i), 1.0, f32::from(i % 3), 0.5]).collect();
+        let picture = Picture { width: 7, height: 5, texels: Texels::Floats(texels) };
         let all = levels(&picture, false);
         let sizes: Vec<_> = all.iter().map(|l| (l.width, l.height)).collect();
         assert_eq!(sizes, [(7, 5), (3, 2), (1, 1)]);
-        let Texels::Floats(last) = &all[2].texels else {
-            panic!("floats stay floats")
-        };
+        let Texels::Floats(last) = &all[2].texels else { panic!("floats stay floats") };
         assert!((last[0][0] - 17.0).abs() < 1e-4, "{:?}", last[0]);
         assert!((last[0][1] - 1.0).abs() < 1e-6);
     }
@@ -141,14 +106,7 @@ mod tests {
     #[test]
     fn encoded_colours_are_averaged_as_light() {
         let texels = Texels::Bytes(vec![[0, 0, 0, 255], [255, 255, 255, 255]]);
-        let all = levels(
-            &Picture {
-                width: 2,
-                height: 1,
-                texels,
-            },
-            true,
-        );
+        let all = levels(&Picture { width: 2, height: 1, texels }, true);
         assert_eq!(all[1].texels, Texels::Bytes(vec![[188, 188, 188, 255]]));
     }
 

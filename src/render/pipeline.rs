@@ -57,12 +57,7 @@ impl Pipelines {
     const MOST: usize = 512;
 
     /// The pipeline of a spec, made if it is new. `what` names it in errors.
-    pub(super) fn get(
-        &mut self,
-        device: &Device,
-        what: &str,
-        spec: Spec,
-    ) -> Result<Arc<Pipeline>, RenderError> {
+    pub(super) fn get(&mut self, device: &Device, what: &str, spec: Spec) -> Result<Arc<Pipeline>, RenderError> {
         if let Some(kept) = self.kept.get(&spec) {
             return Ok(kept.clone());
         }
@@ -77,17 +72,8 @@ impl Pipelines {
 }
 
 fn build(device: &Device, what: &str, spec: &Spec) -> Result<Pipeline, RenderError> {
-    let groups = spec
-        .bindings
-        .iter()
-        .map(|(group, ..)| group + 1)
-        .max()
-        .unwrap_or(0);
-    check(
-        "number of bind groups",
-        u64::from(groups),
-        u64::from(device.limits.max_bind_groups),
-    )?;
+    let groups = spec.bindings.iter().map(|(group, ..)| group + 1).max().unwrap_or(0);
+    check("number of bind groups", u64::from(groups), u64::from(device.limits.max_bind_groups))?;
     let layouts: Vec<wgpu::BindGroupLayout> = (0..groups)
         .map(|group| {
             let entries: Vec<wgpu::BindGroupLayoutEntry> = spec
@@ -101,31 +87,20 @@ fn build(device: &Device, what: &str, spec: &Spec) -> Result<Pipeline, RenderErr
                     count: None,
                 })
                 .collect();
-            let descriptor = wgpu::BindGroupLayoutDescriptor {
-                label: Some(what),
-                entries: &entries,
-            };
+            let descriptor = wgpu::BindGroupLayoutDescriptor { label: Some(what), entries: &entries };
             device.device.create_bind_group_layout(&descriptor)
         })
         .collect();
-    let layout = device
-        .device
-        .create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
-            label: Some(what),
-            bind_group_layouts: &layouts.iter().map(Some).collect::<Vec<_>>(),
-            immediate_size: 0,
-        });
-    let module = device
-        .device
-        .create_shader_module(wgpu::ShaderModuleDescriptor {
-            label: Some(what),
-            source: wgpu::ShaderSource::Wgsl(spec.wgsl.as_str().into()),
-        });
-    let attributes = spec
-        .locations
-        .iter()
-        .map(|&l| vertex_attribute(l))
-        .collect::<Result<Vec<_>, _>>()?;
+    let layout = device.device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
+        label: Some(what),
+        bind_group_layouts: &layouts.iter().map(Some).collect::<Vec<_>>(),
+        immediate_size: 0,
+    });
+    let module = device.device.create_shader_module(wgpu::ShaderModuleDescriptor {
+        label: Some(what),
+        source: wgpu::ShaderSource::Wgsl(spec.wgsl.as_str().into()),
+    });
+    let attributes = spec.locations.iter().map(|&l| vertex_attribute(l)).collect::<Result<Vec<_>, _>>()?;
     let buffers: Vec<Option<wgpu::VertexBufferLayout<'_>>> = attributes
         .iter()
         .map(|attribute| {
@@ -146,44 +121,31 @@ fn build(device: &Device, what: &str, spec: &Spec) -> Result<Pipeline, RenderErr
         stencil: wgpu::StencilState::default(),
         bias: wgpu::DepthBiasState::default(),
     });
-    let targets: Vec<Option<wgpu::ColorTargetState>> = spec
-        .color
-        .iter()
-        .map(|&format| Some(format.into()))
-        .collect();
-    let pipeline = device
-        .device
-        .create_render_pipeline(&wgpu::RenderPipelineDescriptor {
-            label: Some(what),
-            layout: Some(&layout),
-            vertex: wgpu::VertexState {
-                module: &module,
-                entry_point: Some("vs_main"),
-                compilation_options: wgpu::PipelineCompilationOptions::default(),
-                buffers: &buffers,
-            },
-            primitive: wgpu::PrimitiveState {
-                front_face: if spec.mirrored {
-                    wgpu::FrontFace::Cw
-                } else {
-                    wgpu::FrontFace::Ccw
-                },
-                ..wgpu::PrimitiveState::default()
-            },
-            depth_stencil,
-            multisample: wgpu::MultisampleState {
-                count: spec.samples,
-                ..wgpu::MultisampleState::default()
-            },
-            fragment: Some(wgpu::FragmentState {
-                module: &module,
-                entry_point: Some("fs_main"),
-                compilation_options: wgpu::PipelineCompilationOptions::default(),
-                targets: &targets,
-            }),
-            multiview_mask: None,
-            cache: None,
-        });
+    let targets: Vec<Option<wgpu::ColorTargetState>> = spec.color.iter().map(|&format| Some(format.into())).collect();
+    let pipeline = device.device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
+        label: Some(what),
+        layout: Some(&layout),
+        vertex: wgpu::VertexState {
+            module: &module,
+            entry_point: Some("vs_main"),
+            compilation_options: wgpu::PipelineCompilationOptions::default(),
+            buffers: &buffers,
+        },
+        primitive: wgpu::PrimitiveState {
+            front_face: if spec.mirrored { wgpu::FrontFace::Cw } else { wgpu::FrontFace::Ccw },
+            ..wgpu::PrimitiveState::default()
+        },
+        depth_stencil,
+        multisample: wgpu::MultisampleState { count: spec.samples, ..wgpu::MultisampleState::default() },
+        fragment: Some(wgpu::FragmentState {
+            module: &module,
+            entry_point: Some("fs_main"),
+            compilation_options: wgpu::PipelineCompilationOptions::default(),
+            targets: &targets,
+        }),
+        multiview_mask: None,
+        cache: None,
+    });
     Ok(Pipeline { pipeline, layouts })
 }
 
@@ -196,13 +158,8 @@ fn vertex_attribute(location: u32) -> Result<wgpu::VertexAttribute, RenderError>
         (Attribute::Color, wgpu::VertexFormat::Float32x4),
     ];
     let found = FORMATS.iter().find(|(a, _)| a.location() == location);
-    let (_, format) = found
-        .ok_or_else(|| RenderError::Job(format!("no vertex attribute has location {location}")))?;
-    Ok(wgpu::VertexAttribute {
-        format: *format,
-        offset: 0,
-        shader_location: location,
-    })
+    let (_, format) = found.ok_or_else(|| RenderError::Job(format!("no vertex attribute has location {location}")))?;
+    Ok(wgpu::VertexAttribute { format: *format, offset: 0, shader_location: location })
 }
 
 impl Pipeline {
@@ -223,11 +180,7 @@ impl Pipeline {
                         resource: resource.clone(),
                     })
                     .collect();
-                let descriptor = wgpu::BindGroupDescriptor {
-                    label: None,
-                    layout,
-                    entries: &entries,
-                };
+                let descriptor = wgpu::BindGroupDescriptor { label: None, layout, entries: &entries };
                 device.device.create_bind_group(&descriptor)
             })
             .collect()
@@ -243,17 +196,10 @@ impl Pipeline {
 }
 
 /// A uniform buffer, as a binding type.
-pub(super) const UNIFORM: BindingType = BindingType::Buffer {
-    ty: wgpu::BufferBindingType::Uniform,
-    has_dynamic_offset: false,
-    min_binding_size: None,
-};
+pub(super) const UNIFORM: BindingType =
+    BindingType::Buffer { ty: wgpu::BufferBindingType::Uniform, has_dynamic_offset: false, min_binding_size: None };
 
 /// A two-dimensional texture, as a binding type.
 pub(super) const fn texture_type(sample_type: wgpu::TextureSampleType) -> BindingType {
-    BindingType::Texture {
-        sample_type,
-        view_dimension: wgpu::TextureViewDimension::D2,
-        multisampled: false,
-    }
+    BindingType::Texture { sample_type, view_dimension: wgpu::TextureViewDimension::D2, multisampled: false }
 }

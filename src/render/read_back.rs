@@ -12,25 +12,16 @@ use super::format;
 const BAND_BYTES: u64 = 64 << 20;
 
 /// The first `size` bytes of a buffer that can be copied from, once everything submitted is done.
-pub(super) fn buffer(
-    device: &Device,
-    source: &wgpu::Buffer,
-    size: u64,
-) -> Result<Vec<u8>, RenderError> {
+pub(super) fn buffer(device: &Device, source: &wgpu::Buffer, size: u64) -> Result<Vec<u8>, RenderError> {
     let staging = staging(device, size)?;
-    let mut encoder = device
-        .device
-        .create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
+    let mut encoder = device.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
     encoder.copy_buffer_to_buffer(source, 0, &staging, 0, size);
     device.queue.submit([encoder.finish()]);
     read(device, &staging)
 }
 
 /// Mip level 0 of a single-sampled texture, decoded, rows from the top.
-pub(super) fn texture(
-    device: &Device,
-    texture: &wgpu::Texture,
-) -> Result<Vec<[f32; 4]>, RenderError> {
+pub(super) fn texture(device: &Device, texture: &wgpu::Texture) -> Result<Vec<[f32; 4]>, RenderError> {
     let (width, height, format) = (texture.width(), texture.height(), texture.format());
     let texel = format::texel_bytes(format);
     let row = width * texel;
@@ -47,27 +38,19 @@ pub(super) fn texture(
         // Depth can only be copied as a whole.
         height
     } else {
-        u32::try_from(band_bytes / u64::from(pitch))
-            .unwrap_or(height)
-            .clamp(1, height)
+        u32::try_from(band_bytes / u64::from(pitch)).unwrap_or(height).clamp(1, height)
     };
     let mut pixels = Vec::with_capacity(width as usize * height as usize);
     for top in (0..height).step_by(band as usize) {
         let rows = band.min(height - top);
         let staging = staging(device, u64::from(pitch) * u64::from(rows))?;
-        let mut encoder = device
-            .device
-            .create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
+        let mut encoder = device.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
         encoder.copy_texture_to_buffer(
             wgpu::TexelCopyTextureInfo {
                 texture,
                 mip_level: 0,
                 origin: wgpu::Origin3d { x: 0, y: top, z: 0 },
-                aspect: if is_depth {
-                    wgpu::TextureAspect::DepthOnly
-                } else {
-                    wgpu::TextureAspect::All
-                },
+                aspect: if is_depth { wgpu::TextureAspect::DepthOnly } else { wgpu::TextureAspect::All },
             },
             wgpu::TexelCopyBufferInfo {
                 buffer: &staging,
@@ -77,11 +60,7 @@ pub(super) fn texture(
                     rows_per_image: Some(rows),
                 },
             },
-            wgpu::Extent3d {
-                width,
-                height: rows,
-                depth_or_array_layers: 1,
-            },
+            wgpu::Extent3d { width, height: rows, depth_or_array_layers: 1 },
         );
         device.queue.submit([encoder.finish()]);
         let bytes = read(device, &staging)?;
@@ -94,11 +73,7 @@ pub(super) fn texture(
 }
 
 fn staging(device: &Device, size: u64) -> Result<wgpu::Buffer, RenderError> {
-    check(
-        "the buffer for reading back",
-        size,
-        device.limits.max_buffer_size,
-    )?;
+    check("the buffer for reading back", size, device.limits.max_buffer_size)?;
     Ok(device.device.create_buffer(&wgpu::BufferDescriptor {
         label: Some("read back"),
         size,
@@ -108,27 +83,16 @@ fn staging(device: &Device, size: u64) -> Result<wgpu::Buffer, RenderError> {
 }
 
 fn read(device: &Device, staging: &wgpu::Buffer) -> Result<Vec<u8>, RenderError> {
-    let rejected = |message: String| RenderError::Rejected {
-        what: "reading back".into(),
-        message,
-    };
+    let rejected = |message: String| RenderError::Rejected { what: "reading back".into(), message };
     let outcome = Arc::new(Mutex::new(None));
     let told = outcome.clone();
     staging.map_async(wgpu::MapMode::Read, .., move |result| {
         *told.lock().unwrap_or_else(PoisonError::into_inner) = Some(result);
     });
     device.wait()?;
-    let outcome = outcome
-        .lock()
-        .unwrap_or_else(PoisonError::into_inner)
-        .take();
-    outcome
-        .ok_or_else(|| rejected("the device gave no answer".into()))?
-        .map_err(|e| rejected(e.to_string()))?;
-    let bytes = staging
-        .get_mapped_range(..)
-        .map_err(|e| rejected(e.to_string()))?
-        .to_vec();
+    let outcome = outcome.lock().unwrap_or_else(PoisonError::into_inner).take();
+    outcome.ok_or_else(|| rejected("the device gave no answer".into()))?.map_err(|e| rejected(e.to_string()))?;
+    let bytes = staging.get_mapped_range(..).map_err(|e| rejected(e.to_string()))?.to_vec();
     staging.unmap();
     Ok(bytes)
 }

@@ -25,11 +25,7 @@ impl Timer {
                 count: u32::try_from(2 * room).unwrap_or(wgpu::QUERY_SET_MAX_QUERIES),
             })
         });
-        Self {
-            set,
-            room,
-            names: Vec::new(),
-        }
+        Self { set, room, names: Vec::new() }
     }
 
     /// Names the next pass, which consists of the render passes until the next call.
@@ -38,11 +34,7 @@ impl Timer {
     }
 
     /// Timestamps for a render pass of the current pass; `first` and `last` tell whether it begins and ends it.
-    pub(super) fn writes(
-        &self,
-        first: bool,
-        last: bool,
-    ) -> Option<wgpu::RenderPassTimestampWrites<'_>> {
+    pub(super) fn writes(&self, first: bool, last: bool) -> Option<wgpu::RenderPassTimestampWrites<'_>> {
         let index = self.names.len().checked_sub(1).filter(|i| *i < self.room)?;
         let query = u32::try_from(2 * index).ok()?;
         let query_set = self.set.as_ref().filter(|_| first || last)?;
@@ -60,17 +52,11 @@ impl Timer {
         if let Some(set) = self.set.as_ref().filter(|_| known > 0) {
             let size = known as u64 * 16;
             let usage = wgpu::BufferUsages::QUERY_RESOLVE | wgpu::BufferUsages::COPY_SRC;
-            let descriptor = wgpu::BufferDescriptor {
-                label: Some("timestamps"),
-                size,
-                usage,
-                mapped_at_creation: false,
-            };
+            let descriptor =
+                wgpu::BufferDescriptor { label: Some("timestamps"), size, usage, mapped_at_creation: false };
             let resolved = device.device.create_buffer(&descriptor);
             // A submission of its own: some drivers give zeros where timestamps are resolved beside the passes.
-            let mut encoder = device
-                .device
-                .create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
+            let mut encoder = device.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
             encoder.resolve_query_set(set, 0..u32::try_from(2 * known).unwrap_or(0), &resolved, 0);
             device.queue.submit([encoder.finish()]);
             let bytes = read_back::buffer(device, &resolved, size)?;
@@ -80,17 +66,12 @@ impl Timer {
             }
         }
         let timings = self.names.into_iter().zip(milliseconds);
-        Ok(timings
-            .map(|(name, milliseconds)| PassTiming { name, milliseconds })
-            .collect())
+        Ok(timings.map(|(name, milliseconds)| PassTiming { name, milliseconds }).collect())
     }
 }
 
 /// Milliseconds between two timestamps of `period` nanoseconds per tick; none if the device wrote none.
-#[allow(
-    clippy::cast_precision_loss,
-    reason = "differences of ticks are far below 2^53"
-)]
+#[allow(clippy::cast_precision_loss, reason = "differences of ticks are far below 2^53")]
 fn span(pair: &[u8], period: f64) -> Option<f64> {
     let tick = |bytes: &[u8]| Some(u64::from_le_bytes(bytes.try_into().ok()?));
     let (begin, end) = (tick(pair.get(..8)?)?, tick(pair.get(8..16)?)?);

@@ -39,24 +39,12 @@ impl<'a> Uploads<'a> {
     }
 
     /// One vertex attribute of a mesh.
-    pub(super) fn attribute(
-        &mut self,
-        mesh: &Mesh,
-        location: u32,
-    ) -> Result<wgpu::Buffer, RenderError> {
+    pub(super) fn attribute(&mut self, mesh: &Mesh, location: u32) -> Result<wgpu::Buffer, RenderError> {
         let bytes: (usize, &[u8]) = match location {
-            l if l == Attribute::Position.location() => {
-                (mesh.positions.len(), bytemuck::cast_slice(&mesh.positions))
-            }
-            l if l == Attribute::Normal.location() => {
-                (mesh.normals.len(), bytemuck::cast_slice(&mesh.normals))
-            }
-            l if l == Attribute::Texcoord.location() => {
-                (mesh.texcoords.len(), bytemuck::cast_slice(&mesh.texcoords))
-            }
-            l if l == Attribute::Tangent.location() => {
-                (mesh.tangents.len(), bytemuck::cast_slice(&mesh.tangents))
-            }
+            l if l == Attribute::Position.location() => (mesh.positions.len(), bytemuck::cast_slice(&mesh.positions)),
+            l if l == Attribute::Normal.location() => (mesh.normals.len(), bytemuck::cast_slice(&mesh.normals)),
+            l if l == Attribute::Texcoord.location() => (mesh.texcoords.len(), bytemuck::cast_slice(&mesh.texcoords)),
+            l if l == Attribute::Tangent.location() => (mesh.tangents.len(), bytemuck::cast_slice(&mesh.tangents)),
             _ => (mesh.colors.len(), bytemuck::cast_slice(&mesh.colors)),
         };
         if bytes.0 != mesh.positions.len() {
@@ -71,12 +59,7 @@ impl<'a> Uploads<'a> {
 
     /// The index list of a mesh.
     pub(super) fn indices(&mut self, mesh: &Mesh) -> Result<wgpu::Buffer, RenderError> {
-        self.vertex_buffer(
-            mesh,
-            INDICES,
-            wgpu::BufferUsages::INDEX,
-            bytemuck::cast_slice(&mesh.indices),
-        )
+        self.vertex_buffer(mesh, INDICES, wgpu::BufferUsages::INDEX, bytemuck::cast_slice(&mesh.indices))
     }
 
     fn vertex_buffer(
@@ -108,27 +91,18 @@ impl<'a> Uploads<'a> {
         if let Some(view) = self.images.get(&key) {
             return Ok(view.clone());
         }
-        let refuse = |message: String| RenderError::Image {
-            path: path.to_owned(),
-            message,
-        };
+        let refuse = |message: String| RenderError::Image { path: path.to_owned(), message };
         let picture = load(path, base).map_err(refuse)?;
         let texels = match &picture.texels {
             Texels::Bytes(t) => t.len(),
             Texels::Floats(t) => t.len(),
         };
         if texels == 0 || texels as u64 != u64::from(picture.width) * u64::from(picture.height) {
-            return Err(refuse(format!(
-                "{texels} texels are no {} x {} picture",
-                picture.width, picture.height
-            )));
+            return Err(refuse(format!("{texels} texels are no {} x {} picture", picture.width, picture.height)));
         }
         let mut all = levels(&picture, srgb);
         let most = self.device.limits.max_texture_dimension_2d;
-        let fitting = all
-            .iter()
-            .position(|l| l.width.max(l.height) <= most)
-            .unwrap_or(0);
+        let fitting = all.iter().position(|l| l.width.max(l.height) <= most).unwrap_or(0);
         if fitting > 0 {
             all.drain(..fitting);
             self.messages.push(format!(
@@ -141,10 +115,7 @@ impl<'a> Uploads<'a> {
             (Texels::Bytes(_), true) => TextureFormat::Rgba8UnormSrgb,
             (Texels::Bytes(_), false) => TextureFormat::Rgba8Unorm,
         };
-        let bytes: Vec<(u32, u32, Vec<u8>)> = all
-            .iter()
-            .map(|l| (l.width, l.height, image_bytes(l)))
-            .collect();
+        let bytes: Vec<(u32, u32, Vec<u8>)> = all.iter().map(|l| (l.width, l.height, image_bytes(l))).collect();
         let view = self.texture(path, format, &bytes);
         self.images.insert(key, view.clone());
         Ok(view)
@@ -158,38 +129,25 @@ impl<'a> Uploads<'a> {
         if let Some(made) = &self.environment {
             return Ok(made.clone());
         }
-        let black = [SurroundingsLevel {
-            width: 1,
-            height: 1,
-            pixels: vec![[0.0; 4]],
-        }];
+        let black = [SurroundingsLevel { width: 1, height: 1, pixels: vec![[0.0; 4]] }];
         let all = surroundings.map_or(&black[..], |s| &s.levels);
         let mut expected = all.first().map_or((0, 0), |l| (l.width, l.height));
-        self.device
-            .check_texture("the picture of the surroundings", expected.0, expected.1)?;
+        self.device.check_texture("the picture of the surroundings", expected.0, expected.1)?;
         for level in all {
             let texels = u64::from(level.width) * u64::from(level.height);
             if (level.width, level.height) != expected || level.pixels.len() as u64 != texels {
-                return Err(RenderError::Job(
-                    "the levels of the surroundings do not halve".into(),
-                ));
+                return Err(RenderError::Job("the levels of the surroundings do not halve".into()));
             }
             expected = ((level.width / 2).max(1), (level.height / 2).max(1));
         }
         let largest = all.first().map_or(1, |l| l.width.max(l.height));
         if all.len() > largest.ilog2() as usize + 1 {
-            return Err(RenderError::Job(
-                "the surroundings have more levels than their size allows".into(),
-            ));
+            return Err(RenderError::Job("the surroundings have more levels than their size allows".into()));
         }
         let bytes: Vec<(u32, u32, Vec<u8>)> = all
             .iter()
             .map(|l| {
-                let halves = l
-                    .pixels
-                    .iter()
-                    .flatten()
-                    .flat_map(|x| half_bytes(x.max(0.0)));
+                let halves = l.pixels.iter().flatten().flat_map(|x| half_bytes(x.max(0.0)));
                 (l.width, l.height, halves.collect())
             })
             .collect();
@@ -208,44 +166,22 @@ impl<'a> Uploads<'a> {
     }
 
     /// A sampler with these settings, or the nearest to them that the adapter has.
-    pub(super) fn sampler(
-        &mut self,
-        settings: &SamplerSettings,
-    ) -> Result<wgpu::Sampler, RenderError> {
+    pub(super) fn sampler(&mut self, settings: &SamplerSettings) -> Result<wgpu::Sampler, RenderError> {
         if let Some(sampler) = self.samplers.get(settings) {
             return Ok(sampler.clone());
         }
-        if settings.compare
-            && !self
-                .device
-                .downlevel
-                .contains(wgpu::DownlevelFlags::COMPARISON_SAMPLERS)
-        {
-            return Err(RenderError::Unsupported(
-                "the adapter has no comparison samplers".into(),
-            ));
+        if settings.compare && !self.device.downlevel.contains(wgpu::DownlevelFlags::COMPARISON_SAMPLERS) {
+            return Err(RenderError::Unsupported("the adapter has no comparison samplers".into()));
         }
         let mut anisotropy = settings.anisotropy.clamp(1, 16);
-        if anisotropy > 1
-            && !self
-                .device
-                .downlevel
-                .contains(wgpu::DownlevelFlags::ANISOTROPIC_FILTERING)
-        {
-            self.messages.push(
-                "the adapter has no anisotropic filtering; trilinear filtering takes its place"
-                    .into(),
-            );
+        if anisotropy > 1 && !self.device.downlevel.contains(wgpu::DownlevelFlags::ANISOTROPIC_FILTERING) {
+            self.messages.push("the adapter has no anisotropic filtering; trilinear filtering takes its place".into());
             anisotropy = 1;
         }
         // Anisotropic filtering is defined on top of trilinear filtering only.
         let linear = settings.linear || anisotropy > 1;
         let mip_linear = settings.mip_linear || anisotropy > 1;
-        let filter = if linear {
-            wgpu::FilterMode::Linear
-        } else {
-            wgpu::FilterMode::Nearest
-        };
+        let filter = if linear { wgpu::FilterMode::Linear } else { wgpu::FilterMode::Nearest };
         let address = match settings.address {
             Address::Repeat => wgpu::AddressMode::Repeat,
             Address::Clamp => wgpu::AddressMode::ClampToEdge,
@@ -257,11 +193,7 @@ impl<'a> Uploads<'a> {
             address_mode_v: address,
             mag_filter: filter,
             min_filter: filter,
-            mipmap_filter: if mip_linear {
-                wgpu::MipmapFilterMode::Linear
-            } else {
-                wgpu::MipmapFilterMode::Nearest
-            },
+            mipmap_filter: if mip_linear { wgpu::MipmapFilterMode::Linear } else { wgpu::MipmapFilterMode::Nearest },
             compare: settings.compare.then_some(wgpu::CompareFunction::LessEqual),
             anisotropy_clamp: anisotropy,
             ..wgpu::SamplerDescriptor::default()
@@ -270,17 +202,8 @@ impl<'a> Uploads<'a> {
         Ok(sampler)
     }
 
-    fn texture(
-        &self,
-        what: &str,
-        format: TextureFormat,
-        levels: &[(u32, u32, Vec<u8>)],
-    ) -> wgpu::TextureView {
-        let extent = |width, height| wgpu::Extent3d {
-            width,
-            height,
-            depth_or_array_layers: 1,
-        };
+    fn texture(&self, what: &str, format: TextureFormat, levels: &[(u32, u32, Vec<u8>)]) -> wgpu::TextureView {
+        let extent = |width, height| wgpu::Extent3d { width, height, depth_or_array_layers: 1 };
         let texture = self.device.device.create_texture(&wgpu::TextureDescriptor {
             label: Some(what),
             size: levels.first().map_or(extent(1, 1), |l| extent(l.0, l.1)),
@@ -297,13 +220,8 @@ impl<'a> Uploads<'a> {
                 bytes_per_row: Some(width * format.block_copy_size(None).unwrap_or(4)),
                 rows_per_image: Some(*height),
             };
-            let to = wgpu::TexelCopyTextureInfo {
-                mip_level,
-                ..texture.as_image_copy()
-            };
-            self.device
-                .queue
-                .write_texture(to, bytes, rows, extent(*width, *height));
+            let to = wgpu::TexelCopyTextureInfo { mip_level, ..texture.as_image_copy() };
+            self.device.queue.write_texture(to, bytes, rows, extent(*width, *height));
         }
         texture.create_view(&wgpu::TextureViewDescriptor::default())
     }
@@ -312,21 +230,12 @@ impl<'a> Uploads<'a> {
 fn image_bytes(picture: &Picture) -> Vec<u8> {
     match &picture.texels {
         Texels::Bytes(texels) => texels.concat(),
-        Texels::Floats(texels) => texels
-            .iter()
-            .flatten()
-            .flat_map(|x| half_bytes(*x))
-            .collect(),
+        Texels::Floats(texels) => texels.iter().flatten().flat_map(|x| half_bytes(*x)).collect(),
     }
 }
 
 /// Half precision, held within its range; NaN is 0.
 fn half_bytes(x: f32) -> [u8; 2] {
     const MOST: f32 = 65504.0;
-    f16::from_f32(if x.is_nan() {
-        0.0
-    } else {
-        x.clamp(-MOST, MOST)
-    })
-    .to_le_bytes()
+    f16::from_f32(if x.is_nan() { 0.0 } else { x.clamp(-MOST, MOST) }).to_le_bytes()
 }

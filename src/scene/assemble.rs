@@ -40,25 +40,14 @@ pub(super) fn assemble(positions: &[(DVec3, Vec4)], triangles: &[[Corner; 3]]) -
     let mut gradients: Vec<(DVec3, DVec3)> = Vec::new();
     for (index, (corners, face)) in faces.iter().enumerate() {
         let points = corners.map(|c| positions[c.position].0);
-        let texcoords: [DVec2; 3] = std::array::from_fn(|i| {
-            corners[i]
-                .texcoord
-                .unwrap_or_else(|| project(points[i], *face))
-        });
+        let texcoords: [DVec2; 3] =
+            std::array::from_fn(|i| corners[i].texcoord.unwrap_or_else(|| project(points[i], *face)));
         let (along_u, along_v, mirrored) = gradient(points, texcoords);
         for i in 0..3 {
-            let normal = corners[i]
-                .normal
-                .unwrap_or_else(|| smooth.at(index, i))
-                .as_vec3();
+            let normal = corners[i].normal.unwrap_or_else(|| smooth.at(index, i)).as_vec3();
             let texcoord = texcoords[i].as_vec2();
             let bits = |x: f32| (x + 0.0).to_bits();
-            let key = (
-                corners[i].position,
-                normal.to_array().map(bits),
-                texcoord.to_array().map(bits),
-                mirrored,
-            );
+            let key = (corners[i].position, normal.to_array().map(bits), texcoord.to_array().map(bits), mirrored);
             let vertex = *known.entry(key).or_insert_with(|| {
                 let (position, color) = positions[corners[i].position];
                 mesh.positions.push(position.as_vec3());
@@ -73,12 +62,7 @@ pub(super) fn assemble(positions: &[(DVec3, Vec4)], triangles: &[[Corner; 3]]) -
             mesh.indices.push(vertex);
         }
     }
-    mesh.tangents = mesh
-        .normals
-        .iter()
-        .zip(gradients)
-        .map(|(n, (u, v))| tangent(n.as_dvec3(), u, v))
-        .collect();
+    mesh.tangents = mesh.normals.iter().zip(gradients).map(|(n, (u, v))| tangent(n.as_dvec3(), u, v)).collect();
     mesh
 }
 
@@ -93,28 +77,16 @@ fn gradient(p: [DVec3; 3], t: [DVec2; 3]) -> (DVec3, DVec3, bool) {
         return (DVec3::ZERO, DVec3::ZERO, false);
     }
     // With v down, a texture that is not mirrored runs clockwise over a counter-clockwise triangle.
-    (
-        scaled(e * r.y - f * s.y),
-        scaled(f * s.x - e * r.x),
-        determinant > 0.0,
-    )
+    (scaled(e * r.y - f * s.y), scaled(f * s.x - e * r.x), determinant > 0.0)
 }
 
 /// The part of `u` orthogonal to the normal; any direction that is, if there is none. w as [`Mesh::tangents`] says.
 fn tangent(normal: DVec3, u: DVec3, v: DVec3) -> Vec4 {
     let flat = u - normal * normal.dot(u);
     // Compared with its own length: rounding leaves a remainder when u runs along the normal.
-    let unit = if flat.length() > 1e-6 * u.length() {
-        flat.try_normalize()
-    } else {
-        None
-    };
+    let unit = if flat.length() > 1e-6 * u.length() { flat.try_normalize() } else { None };
     let tangent = unit.unwrap_or_else(|| normal.any_orthonormal_vector());
-    let side = if normal.cross(tangent).dot(v) > 0.0 {
-        1.0
-    } else {
-        -1.0
-    };
+    let side = if normal.cross(tangent).dot(v) > 0.0 { 1.0 } else { -1.0 };
     tangent.as_vec3().extend(side)
 }
 
@@ -154,18 +126,11 @@ impl<'a> SmoothNormals<'a> {
             let p = corners.map(|c| positions[c.position].0);
             for i in 0..3 {
                 let slot = &mut next[corners[i].position];
-                around[*slot] = (
-                    index as u32,
-                    (p[(i + 1) % 3] - p[i]).angle_between(p[(i + 2) % 3] - p[i]),
-                );
+                around[*slot] = (index as u32, (p[(i + 1) % 3] - p[i]).angle_between(p[(i + 2) % 3] - p[i]));
                 *slot += 1;
             }
         }
-        Self {
-            faces,
-            starts,
-            around,
-        }
+        Self { faces, starts, around }
     }
 
     fn at(&self, face: usize, corner: usize) -> DVec3 {
@@ -175,12 +140,7 @@ impl<'a> SmoothNormals<'a> {
         if fan.len() > MAX_FAN {
             return own;
         }
-        let near = fan
-            .iter()
-            .map(|(f, angle)| (self.faces[*f as usize].1, angle));
-        near.filter(|(n, _)| n.dot(own) > CREASE_COSINE)
-            .map(|(n, angle)| n * *angle)
-            .sum::<DVec3>()
-            .normalize_or(own)
+        let near = fan.iter().map(|(f, angle)| (self.faces[*f as usize].1, angle));
+        near.filter(|(n, _)| n.dot(own) > CREASE_COSINE).map(|(n, angle)| n * *angle).sum::<DVec3>().normalize_or(own)
     }
 }

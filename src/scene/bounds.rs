@@ -25,15 +25,9 @@ pub struct Ball {
 impl Bounds {
     /// Of some points; none if there are none. Points that are not finite do not count.
     pub fn of_points(points: impl IntoIterator<Item = Vec3>) -> Option<Self> {
-        points
-            .into_iter()
-            .filter(|p| p.is_finite())
-            .fold(None, |bounds: Option<Self>, p| {
-                Some(bounds.map_or(Self { min: p, max: p }, |b| Self {
-                    min: b.min.min(p),
-                    max: b.max.max(p),
-                }))
-            })
+        points.into_iter().filter(|p| p.is_finite()).fold(None, |bounds: Option<Self>, p| {
+            Some(bounds.map_or(Self { min: p, max: p }, |b| Self { min: b.min.min(p), max: b.max.max(p) }))
+        })
     }
 
     /// Of meshes in world space, each with its object-to-world matrix: exact, vertex by vertex.
@@ -57,24 +51,13 @@ impl Ball {
         I: IntoIterator<Item = (&'a Mesh, Mat4)> + Clone,
     {
         let center = Bounds::of_meshes(meshes.clone())?.center();
-        let squares = world_points(meshes)
-            .filter(|p| p.is_finite())
-            .map(|p| p.distance_squared(center));
-        Some(Self {
-            center,
-            radius: squares.fold(0.0, f32::max).sqrt(),
-        })
+        let squares = world_points(meshes).filter(|p| p.is_finite()).map(|p| p.distance_squared(center));
+        Some(Self { center, radius: squares.fold(0.0, f32::max).sqrt() })
     }
 }
 
-fn world_points<'a>(
-    meshes: impl IntoIterator<Item = (&'a Mesh, Mat4)>,
-) -> impl Iterator<Item = Vec3> {
-    meshes.into_iter().flat_map(|(mesh, matrix)| {
-        mesh.positions
-            .iter()
-            .map(move |p| matrix.transform_point3(*p))
-    })
+fn world_points<'a>(meshes: impl IntoIterator<Item = (&'a Mesh, Mat4)>) -> impl Iterator<Item = Vec3> {
+    meshes.into_iter().flat_map(|(mesh, matrix)| mesh.positions.iter().map(move |p| matrix.transform_point3(*p)))
 }
 
 #[cfg(test)]
@@ -84,19 +67,12 @@ mod tests {
     #[test]
     fn a_turned_and_moved_box_is_bounded_exactly() {
         let mesh = super::super::primitive::cuboid([2.0, 2.0, 2.0], 0.0);
-        let matrix =
-            Mat4::from_translation(Vec3::X * 3.0) * Mat4::from_rotation_y(45f32.to_radians());
+        let matrix = Mat4::from_translation(Vec3::X * 3.0) * Mat4::from_rotation_y(45f32.to_radians());
         let bounds = Bounds::of_meshes([(&mesh, matrix)]).unwrap();
         let root = 2f32.sqrt();
-        assert!(
-            (bounds.max - Vec3::new(3.0 + root, 1.0, root)).length() < 1e-5,
-            "{bounds:?}"
-        );
+        assert!((bounds.max - Vec3::new(3.0 + root, 1.0, root)).length() < 1e-5, "{bounds:?}");
         let ball = Ball::of_meshes([(&mesh, matrix)]).unwrap();
-        assert!(
-            (ball.center - Vec3::X * 3.0).length() < 1e-5
-                && (ball.radius - 3f32.sqrt()).abs() < 1e-5
-        );
+        assert!((ball.center - Vec3::X * 3.0).length() < 1e-5 && (ball.radius - 3f32.sqrt()).abs() < 1e-5);
     }
 
     #[test]

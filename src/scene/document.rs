@@ -42,10 +42,7 @@ pub struct FileReference {
 impl FileReference {
     /// A path that no file mentions.
     pub fn new(path: impl Into<String>) -> Self {
-        Self {
-            path: path.into(),
-            span: None,
-        }
+        Self { path: path.into(), span: None }
     }
 }
 

@@ -75,36 +75,22 @@ impl Reader<'_> {
         let keyword = words.next().unwrap_or_default();
         let outcome = match keyword {
             "v" => self.position(words),
-            "vt" => {
-                numbers::<2>(words, 1).map(|n| self.texcoords.push(DVec2::new(n[0], 1.0 - n[1])))
-            }
+            "vt" => numbers::<2>(words, 1).map(|n| self.texcoords.push(DVec2::new(n[0], 1.0 - n[1]))),
             "vn" => numbers::<3>(words, 3).map(|n| self.normals.push(DVec3::from_array(n))),
             "f" => self.face(words),
             _ => return,
         };
-        let full = [
-            self.positions.len(),
-            self.texcoords.len(),
-            self.normals.len(),
-            self.corners.len(),
-        ];
+        let full = [self.positions.len(), self.texcoords.len(), self.normals.len(), self.corners.len()];
         let outcome = outcome.and_then(|()| {
             if full.iter().any(|n| *n > MAX_OBJ_ELEMENTS) {
-                return Err((
-                    "ST0423",
-                    format!("the OBJ file has more than {MAX_OBJ_ELEMENTS} elements of a kind"),
-                ));
+                return Err(("ST0423", format!("the OBJ file has more than {MAX_OBJ_ELEMENTS} elements of a kind")));
             }
             Ok(())
         });
         if let Err((code, message)) = outcome {
             let lead = line.len() - line.trim_start().len();
-            let span = Span::new(
-                self.source,
-                start + lead..start + line.trim_end().len().max(lead),
-            );
-            self.errors
-                .push(Diagnostic::error(code, message, Place::span(span)));
+            let span = Span::new(self.source, start + lead..start + line.trim_end().len().max(lead));
+            self.errors.push(Diagnostic::error(code, message, Place::span(span)));
             if code == "ST0423" {
                 self.positions.clear();
                 self.texcoords.clear();
@@ -115,36 +101,20 @@ impl Reader<'_> {
     }
 
     /// `v x y z`, `v x y z w`, or `v x y z r g b`.
-    fn position<'t>(
-        &mut self,
-        words: impl Iterator<Item = &'t str>,
-    ) -> Result<(), (&'static str, String)> {
+    fn position<'t>(&mut self, words: impl Iterator<Item = &'t str>) -> Result<(), (&'static str, String)> {
         let words: Vec<&str> = words.take(8).collect();
         let n = numbers::<7>(words.iter().copied(), 3)?;
-        let color = if words.len() >= 6 {
-            [n[3], n[4], n[5]]
-        } else {
-            [1.0; 3]
-        };
-        self.positions.push((
-            DVec3::new(n[0], n[1], n[2]),
-            DVec3::from_array(color).as_vec3().extend(1.0),
-        ));
+        let color = if words.len() >= 6 { [n[3], n[4], n[5]] } else { [1.0; 3] };
+        self.positions.push((DVec3::new(n[0], n[1], n[2]), DVec3::from_array(color).as_vec3().extend(1.0)));
         Ok(())
     }
 
     /// `f p p p ...` where p is `v`, `v/vt`, `v//vn` or `v/vt/vn`; indices begin at 1 or count back from -1.
-    fn face<'t>(
-        &mut self,
-        words: impl Iterator<Item = &'t str>,
-    ) -> Result<(), (&'static str, String)> {
+    fn face<'t>(&mut self, words: impl Iterator<Item = &'t str>) -> Result<(), (&'static str, String)> {
         let mut polygon = Vec::new();
         for word in words {
             if polygon.len() == MAX_CORNERS {
-                return Err((
-                    "ST0422",
-                    format!("a face has more than {MAX_CORNERS} corners"),
-                ));
+                return Err(("ST0422", format!("a face has more than {MAX_CORNERS} corners")));
             }
             let mut parts = word.split('/');
             let mut index = |count: usize, what: &str| match parts.next() {
@@ -164,13 +134,7 @@ impl Reader<'_> {
             });
         }
         if polygon.len() < 3 {
-            return Err((
-                "ST0422",
-                format!(
-                    "a face needs at least 3 corners, this one has {}",
-                    polygon.len()
-                ),
-            ));
+            return Err(("ST0422", format!("a face needs at least 3 corners, this one has {}", polygon.len())));
         }
         for pair in polygon[1..].windows(2) {
             self.corners.push([polygon[0], pair[0], pair[1]]);
@@ -194,30 +158,18 @@ fn numbers<'t, const N: usize>(
         count += 1;
     }
     if count < needed {
-        return Err((
-            "ST0420",
-            format!("expected at least {needed} numbers, found {count}"),
-        ));
+        return Err(("ST0420", format!("expected at least {needed} numbers, found {count}")));
     }
     Ok(result)
 }
 
 /// An index of the file to one from 0.
 fn resolve(text: &str, count: usize, what: &str) -> Result<usize, (&'static str, String)> {
-    let number: i64 = text
-        .parse()
-        .map_err(|_| ("ST0421", format!("`{text}` is not an index")))?;
-    let index = if number < 0 {
-        count as i64 + number
-    } else {
-        number - 1
-    };
+    let number: i64 = text.parse().map_err(|_| ("ST0421", format!("`{text}` is not an index")))?;
+    let index = if number < 0 { count as i64 + number } else { number - 1 };
     match usize::try_from(index) {
         Ok(index) if index < count => Ok(index),
-        _ => Err((
-            "ST0421",
-            format!("the index {number} is out of range: {count} {what} come before this line"),
-        )),
+        _ => Err(("ST0421", format!("the index {number} is out of range: {count} {what} come before this line"))),
     }
 }
 
@@ -242,11 +194,7 @@ f 4 3 2 1\nf 5 6 7 8\nf 1 2 6 5\nf -5 -1 -2 -6 # the top, from the end\nf 2 3 7 
         crate::scene::checks::check(&mesh);
         assert!((crate::scene::checks::volume(&mesh) - 8.0).abs() < 1e-6);
         assert_eq!((mesh.positions.len(), mesh.indices.len()), (24, 36));
-        assert!(
-            mesh.normals
-                .iter()
-                .all(|n| n.abs().max_element() > 0.999_99)
-        );
+        assert!(mesh.normals.iter().all(|n| n.abs().max_element() > 0.999_99));
     }
 
     #[test]
@@ -257,13 +205,8 @@ f 4 3 2 1\nf 5 6 7 8\nf 1 2 6 5\nf -5 -1 -2 -6 # the top, from the end\nf 2 3 7 
             text += &format!("v {} {} {}\n", p.x, p.y, p.z);
         }
         // Weld the seam by position, as an exporter would.
-        let first = |i: u32| {
-            ball.positions
-                .iter()
-                .position(|p| p.distance(ball.positions[i as usize]) < 1e-6)
-                .unwrap()
-                + 1
-        };
+        let first =
+            |i: u32| ball.positions.iter().position(|p| p.distance(ball.positions[i as usize]) < 1e-6).unwrap() + 1;
         for t in ball.indices.chunks(3) {
             text += &format!("f {} {} {}\n", first(t[0]), first(t[1]), first(t[2]));
         }
@@ -279,27 +222,15 @@ f 4 3 2 1\nf 5 6 7 8\nf 1 2 6 5\nf -5 -1 -2 -6 # the top, from the end\nf 2 3 7 
         let text = "v 0 0 0\nv 2 0 0\nv 2 1 0\nv 0 1 0.5\nvt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\nvn 0 0 1\nvn 0 1 1\n\
                     f 1/1/1 2/2/1 3/3/1 4/4/2\nf 1/1/2 3/3/1 2/2/1\n";
         let ours = read(text).unwrap();
-        let options = tobj::LoadOptions {
-            single_index: true,
-            triangulate: true,
-            ..Default::default()
-        };
-        let (models, _) = tobj::load_obj_buf(&mut text.as_bytes(), &options, |_| {
-            Err(tobj::LoadError::GenericFailure)
-        })
-        .unwrap();
+        let options = tobj::LoadOptions { single_index: true, triangulate: true, ..Default::default() };
+        let (models, _) =
+            tobj::load_obj_buf(&mut text.as_bytes(), &options, |_| Err(tobj::LoadError::GenericFailure)).unwrap();
         let theirs = &models[0].mesh;
         assert_eq!(ours.indices.len(), theirs.indices.len());
         for (&a, &b) in ours.indices.iter().zip(&theirs.indices) {
             let (a, b) = (a as usize, b as usize);
-            assert_eq!(
-                ours.positions[a].to_array(),
-                theirs.positions[3 * b..3 * b + 3]
-            );
-            assert!(
-                (ours.normals[a] - Vec3::from_slice(&theirs.normals[3 * b..]).normalize()).length()
-                    < 1e-6
-            );
+            assert_eq!(ours.positions[a].to_array(), theirs.positions[3 * b..3 * b + 3]);
+            assert!((ours.normals[a] - Vec3::from_slice(&theirs.normals[3 * b..]).normalize()).length() < 1e-6);
             let uv = &theirs.texcoords[2 * b..];
             assert_eq!(ours.texcoords[a].to_array(), [uv[0], 1.0 - uv[1]]);
         }
@@ -316,13 +247,9 @@ f 4 3 2 1\nf 5 6 7 8\nf 1 2 6 5\nf -5 -1 -2 -6 # the top, from the end\nf 2 3 7 
 
     #[test]
     fn every_mistake_is_reported_at_its_line() {
-        let text =
-            "v 0 0 0\nv 1 nan 0\nv 1 0\nvt\nf 1 2\nf 1 2 9\nf 0 1 1\nf 1//1 1 1\n  f a b c\n";
+        let text = "v 0 0 0\nv 1 nan 0\nv 1 0\nvt\nf 1 2\nf 1 2 9\nf 0 1 1\nf 1//1 1 1\n  f a b c\n";
         let errors = read(text).unwrap_err();
-        let found: Vec<_> = errors
-            .iter()
-            .map(|e| (e.code, e.place.span.as_ref().unwrap().line_column()))
-            .collect();
+        let found: Vec<_> = errors.iter().map(|e| (e.code, e.place.span.as_ref().unwrap().line_column())).collect();
         let expected = [
             ("ST0420", (2, 1)),
             ("ST0420", (3, 1)),

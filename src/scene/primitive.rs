@@ -65,11 +65,7 @@ pub(super) fn plane(size: [f64; 2], segments: [u32; 2]) -> Mesh {
     mesh.patch(segments[0], segments[1], |column, row| {
         let texcoord = DVec2::new(ratio(column, segments[0]), ratio(row, segments[1]));
         Point {
-            position: DVec3::new(
-                (texcoord.x - 0.5) * size[0],
-                0.0,
-                (texcoord.y - 0.5) * size[1],
-            ),
+            position: DVec3::new((texcoord.x - 0.5) * size[0], 0.0, (texcoord.y - 0.5) * size[1]),
             normal: DVec3::Y,
             tangent: DVec3::X,
             texcoord,
@@ -100,30 +96,18 @@ pub(super) fn cuboid(size: [f64; 3], bevel: f64) -> Mesh {
         let down = tangent.cross(normal);
         let (half_u, half_v) = ((half * tangent).length(), (half * down).length());
         let (lines_u, lines_v) = (rim_lines(half_u, bevel), rim_lines(half_v, bevel));
-        mesh.patch(
-            lines_u.len() as u32 - 1,
-            lines_v.len() as u32 - 1,
-            |column, row| {
-                let (u, v) = (lines_u[column as usize], lines_v[row as usize]);
-                let outer = normal * half + tangent * u + down * v;
-                let inner = outer.clamp(-core, core);
-                let out = if bevel > 0.0 {
-                    (outer - inner).normalize()
-                } else {
-                    normal
-                };
-                Point {
-                    position: if bevel > 0.0 {
-                        inner + out * bevel
-                    } else {
-                        outer
-                    },
-                    normal: out,
-                    tangent: (tangent - out * out.dot(tangent)).normalize(),
-                    texcoord: DVec2::new(u / half_u + 1.0, v / half_v + 1.0) * 0.5,
-                }
-            },
-        );
+        mesh.patch(lines_u.len() as u32 - 1, lines_v.len() as u32 - 1, |column, row| {
+            let (u, v) = (lines_u[column as usize], lines_v[row as usize]);
+            let outer = normal * half + tangent * u + down * v;
+            let inner = outer.clamp(-core, core);
+            let out = if bevel > 0.0 { (outer - inner).normalize() } else { normal };
+            Point {
+                position: if bevel > 0.0 { inner + out * bevel } else { outer },
+                normal: out,
+                tangent: (tangent - out * out.dot(tangent)).normalize(),
+                texcoord: DVec2::new(u / half_u + 1.0, v / half_v + 1.0) * 0.5,
+            }
+        });
     }
     mesh
 }
@@ -136,12 +120,7 @@ fn rim_lines(half: f64, bevel: f64) -> Vec<f64> {
     let core = half - bevel;
     let offsets = (0..=BEVEL_STEPS).map(|i| bevel * (FRAC_PI_4 * ratio(i, BEVEL_STEPS)).tan());
     let right: Vec<f64> = offsets.map(|x| core + x).collect();
-    right
-        .iter()
-        .rev()
-        .map(|x| -x)
-        .chain(right.iter().copied())
-        .collect()
+    right.iter().rev().map(|x| -x).chain(right.iter().copied()).collect()
 }
 
 /// See [`super::Shape::Sphere`].
@@ -153,18 +132,9 @@ pub(super) fn sphere(radius: f64, segments: u32) -> Mesh {
         let (around, tangent) = around_y(column, segments);
         let latitude = FRAC_PI_2 - PI * v;
         // Exactly zero at the poles, so that their points coincide.
-        let across = if row == 0 || row == rows {
-            0.0
-        } else {
-            latitude.cos()
-        };
+        let across = if row == 0 || row == rows { 0.0 } else { latitude.cos() };
         let normal = (around * across).with_y(latitude.sin());
-        Point {
-            position: normal * radius,
-            normal,
-            tangent,
-            texcoord: DVec2::new(u, v),
-        }
+        Point { position: normal * radius, normal, tangent, texcoord: DVec2::new(u, v) }
     });
     mesh
 }
@@ -195,11 +165,7 @@ pub(super) fn cylinder(radius: f64, height: f64, capped: bool, segments: u32) ->
             }
             for column in 0..segments {
                 let (a, b) = (center + 1 + column, center + 1 + (column + 1) % segments);
-                if side > 0.0 {
-                    mesh.triangle(center, a, b)
-                } else {
-                    mesh.triangle(center, b, a)
-                }
+                if side > 0.0 { mesh.triangle(center, a, b) } else { mesh.triangle(center, b, a) }
             }
         }
     }

@@ -3,10 +3,7 @@
 use std::ops::Range;
 use std::sync::Arc;
 
-use super::{
-    CameraSettings, LightInstance, MAX_ITEMS, Object, Scene, Transform, Unknown, VERSION,
-    read_parts,
-};
+use super::{CameraSettings, LightInstance, MAX_ITEMS, Object, Scene, Transform, Unknown, VERSION, read_parts};
 use crate::diagnostic::{Diagnostic, Place, SourceText, Span};
 use crate::ron::{self, Comment, Field, Node, Tree, expect_fields, field, unknown_fields};
 
@@ -26,28 +23,14 @@ impl Report {
             self.found.push(diagnostic);
         } else if self.found.len() == MAX_REPORTED {
             let place = Place::file(self.source.name.clone());
-            self.found.push(Diagnostic::error(
-                "ST0415",
-                "there are more mistakes than are listed here",
-                place,
-            ));
+            self.found.push(Diagnostic::error("ST0415", "there are more mistakes than are listed here", place));
         }
     }
 
     /// An error at a value.
-    pub(super) fn error(
-        &mut self,
-        code: &'static str,
-        message: impl Into<String>,
-        node: &Node,
-        help: &str,
-    ) {
+    pub(super) fn error(&mut self, code: &'static str, message: impl Into<String>, node: &Node, help: &str) {
         let diagnostic = Diagnostic::error(code, message, node.place(&self.source));
-        self.push(if help.is_empty() {
-            diagnostic
-        } else {
-            diagnostic.help(help)
-        });
+        self.push(if help.is_empty() { diagnostic } else { diagnostic.help(help) });
     }
 
     /// The value of a reading, or nothing and its complaint reported.
@@ -64,16 +47,12 @@ impl Report {
         read: impl Fn(&Node, &Arc<SourceText>) -> ron::Reading<T>,
     ) -> T {
         let source = self.source.clone();
-        field(fields, name)
-            .and_then(|node| self.take(read(node, &source)))
-            .unwrap_or(default)
+        field(fields, name).and_then(|node| self.take(read(node, &source))).unwrap_or(default)
     }
 
     /// A text field; empty where it is not given.
     pub(super) fn text(&mut self, fields: &[Field], name: &str) -> String {
-        self.get(fields, name, String::new(), |node, source| {
-            node.as_str(source).map(str::to_string)
-        })
+        self.get(fields, name, String::new(), |node, source| node.as_str(source).map(str::to_string))
     }
 
     /// Warns of fields that are not known, and gives them out to be kept.
@@ -95,10 +74,7 @@ impl Report {
 /// Comments become part of the `note` of the light or object that they stand in, or of the scene's.
 pub fn read(source: &Arc<SourceText>) -> (Option<Scene>, Vec<Diagnostic>) {
     let (document, found) = ron::read(source);
-    let mut report = Report {
-        source: source.clone(),
-        found: Vec::new(),
-    };
+    let mut report = Report { source: source.clone(), found: Vec::new() };
     found.into_iter().for_each(|d| report.push(d));
     let scene = document.and_then(|document| scene(&document, &mut report));
     (scene, report.found)
@@ -111,29 +87,17 @@ fn scene(document: &ron::Document, report: &mut Report) -> Option<Scene> {
         Tree::Tuple(Some(name), items) if name == "Scene" && items.is_empty() => &[],
         other => {
             let help = match other {
-                Tree::Struct(Some(name), _) if name == "Graph" => {
-                    "this is a graph file; a scene file is needed here"
-                }
-                _ => {
-                    "a scene file is written `Scene(version: 1, camera: (...), lights: {...}, objects: {...})`"
-                }
+                Tree::Struct(Some(name), _) if name == "Graph" => "this is a graph file; a scene file is needed here",
+                _ => "a scene file is written `Scene(version: 1, camera: (...), lights: {...}, objects: {...})`",
             };
-            report.error(
-                "ST0400",
-                format!("expected `Scene(...)`, found {}", other.describe()),
-                root,
-                help,
-            );
+            report.error("ST0400", format!("expected `Scene(...)`, found {}", other.describe()), root, help);
             return None;
         }
     };
     if !version(fields, root, report) {
         return None;
     }
-    let mut scene = Scene {
-        version: VERSION,
-        ..Scene::default()
-    };
+    let mut scene = Scene { version: VERSION, ..Scene::default() };
     scene.name = report.text(fields, "name");
     scene.note = report.text(fields, "note");
     match field(fields, "camera") {
@@ -153,20 +117,11 @@ fn scene(document: &ron::Document, report: &mut Report) -> Option<Scene> {
         scene.objects.extend(object(name, span, node, report));
     }
     if field(fields, "objects").is_none_or(|n| matches!(&n.value, Tree::Map(m) if m.is_empty())) {
-        let help =
-            "add `objects: {\"ground\": (shape: Plane(size: (10, 10)), surface: \"surface.ron\")}`";
+        let help = "add `objects: {\"ground\": (shape: Plane(size: (10, 10)), surface: \"surface.ron\")}`";
         let place = root.place(&report.source);
         report.push(Diagnostic::warning("ST0410", "the scene has no objects", place).help(help));
     }
-    let known = [
-        "version",
-        "name",
-        "note",
-        "camera",
-        "environment",
-        "lights",
-        "objects",
-    ];
+    let known = ["version", "name", "note", "camera", "environment", "lights", "objects"];
     scene.unknown = report.unknown(fields, &known);
     keep_comments(&document.comments, &report.source.text, &mut scene);
     scene.lights.sort_by(|a, b| a.name.cmp(&b.name));
@@ -177,12 +132,7 @@ fn scene(document: &ron::Document, report: &mut Report) -> Option<Scene> {
 /// Whether the version is one that is read.
 fn version(fields: &[Field], root: &Node, report: &mut Report) -> bool {
     let Some(node) = field(fields, "version") else {
-        report.error(
-            "ST0401",
-            "the scene does not say its version",
-            root,
-            "add `version: 1` as its first field",
-        );
+        report.error("ST0401", "the scene does not say its version", root, "add `version: 1` as its first field");
         // It can still be looked at: a forgotten version is no reason to hide other mistakes.
         return true;
     };
@@ -190,48 +140,29 @@ fn version(fields: &[Field], root: &Node, report: &mut Report) -> bool {
     match node.as_u64(&source, u64::from(u32::MAX)) {
         Ok(1) => true,
         Ok(0) => {
-            report.error(
-                "ST0401",
-                "version 0 of scene files has never existed",
-                node,
-                "write `version: 1`",
-            );
+            report.error("ST0401", "version 0 of scene files has never existed", node, "write `version: 1`");
             true
         }
         Ok(newer) => {
-            let message =
-                format!("the scene has version {newer}; this program reads up to {VERSION}");
+            let message = format!("the scene has version {newer}; this program reads up to {VERSION}");
             report.error("ST0402", message, node, "use a newer shadetree");
             false
         }
         Err(diagnostic) => {
-            report.push(
-                Diagnostic {
-                    code: "ST0401",
-                    ..*diagnostic
-                }
-                .help("write `version: 1`"),
-            );
+            report.push(Diagnostic { code: "ST0401", ..*diagnostic }.help("write `version: 1`"));
             true
         }
     }
 }
 
 /// Named values of a map field, with the span of the name.
-fn entries<'a>(
-    fields: &'a [Field],
-    name: &str,
-    report: &mut Report,
-) -> Vec<(String, Span, &'a Node)> {
+fn entries<'a>(fields: &'a [Field], name: &str, report: &mut Report) -> Vec<(String, Span, &'a Node)> {
     let source = report.source.clone();
     let Some(map) = field(fields, name).and_then(|node| report.take(node.as_map(&source))) else {
         return Vec::new();
     };
     if map.len() > MAX_ITEMS {
-        let message = format!(
-            "the scene has {} {name}; at most {MAX_ITEMS} are handled",
-            map.len()
-        );
+        let message = format!("the scene has {} {name}; at most {MAX_ITEMS} are handled", map.len());
         report.error("ST0414", message, &map[MAX_ITEMS].0, "");
         return Vec::new();
     }
@@ -249,11 +180,8 @@ fn entries<'a>(
 
 fn camera(node: &Node, report: &mut Report) -> CameraSettings {
     let source = report.source.clone();
-    let Some(fields) = report.take(expect_fields(
-        node,
-        &source,
-        "a camera `(position: ..., target: ..., fov: ...)`",
-    )) else {
+    let Some(fields) = report.take(expect_fields(node, &source, "a camera `(position: ..., target: ..., fov: ...)`"))
+    else {
         return CameraSettings::default();
     };
     let d = CameraSettings::default();
@@ -272,13 +200,7 @@ fn camera(node: &Node, report: &mut Report) -> CameraSettings {
 
 fn light(name: String, span: Span, node: &Node, report: &mut Report) -> LightInstance {
     let source = report.source.clone();
-    let fields = report
-        .take(expect_fields(
-            node,
-            &source,
-            "a light `(graph: \"light.ron\")`",
-        ))
-        .unwrap_or_default();
+    let fields = report.take(expect_fields(node, &source, "a light `(graph: \"light.ron\")`")).unwrap_or_default();
     LightInstance {
         name,
         span: Some(span),
@@ -296,12 +218,7 @@ fn object(name: String, span: Span, node: &Node, report: &mut Report) -> Option<
     let shape = match field(fields, "shape") {
         Some(shape) => read_parts::shape(shape, report),
         None => {
-            report.error(
-                "ST0011",
-                format!("the object `{name}` has no shape"),
-                node,
-                "add `shape: Sphere(radius: 1)`",
-            );
+            report.error("ST0011", format!("the object `{name}` has no shape"), node, "add `shape: Sphere(radius: 1)`");
             None
         }
     };
@@ -311,9 +228,7 @@ fn object(name: String, span: Span, node: &Node, report: &mut Report) -> Option<
         rotate: report.get(fields, "rotate", d.rotate, Node::as_array),
         scale: report.get(fields, "scale", d.scale, |node, source| {
             // One number scales all axes alike.
-            node.as_f64(source)
-                .map(|x| [x; 3])
-                .or_else(|_| node.as_array(source))
+            node.as_f64(source).map(|x| [x; 3]).or_else(|_| node.as_array(source))
         }),
     };
     if transform.scale.iter().any(|x| *x <= 0.0) {
@@ -325,23 +240,11 @@ fn object(name: String, span: Span, node: &Node, report: &mut Report) -> Option<
             help,
         );
     }
-    let known = [
-        "note",
-        "shape",
-        "surface",
-        "set",
-        "translate",
-        "rotate",
-        "scale",
-        "casts",
-        "receives",
-    ];
+    let known = ["note", "shape", "surface", "set", "translate", "rotate", "scale", "casts", "receives"];
     let object = Object {
         span: Some(span),
         note: report.text(fields, "note"),
-        shape: shape
-            .clone()
-            .unwrap_or(super::Shape::Obj(Default::default())),
+        shape: shape.clone().unwrap_or(super::Shape::Obj(Default::default())),
         surface: read_parts::path(fields, "surface", node, report),
         set: read_parts::settings(fields, report),
         transform,
@@ -370,10 +273,7 @@ fn keep_comments(comments: &[Comment], text: &str, scene: &mut Scene) {
             continue;
         };
         let bare = if comment.block {
-            marked
-                .trim_start_matches("/*")
-                .trim_end_matches("*/")
-                .trim()
+            marked.trim_start_matches("/*").trim_end_matches("*/").trim()
         } else {
             marked.trim_start_matches('/').trim()
         };

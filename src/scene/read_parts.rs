@@ -4,10 +4,7 @@ use glam::DVec3;
 
 use super::environment::Sky;
 use super::read::Report;
-use super::{
-    CameraSettings, Environment, FileReference, MAX_SEGMENTS, MIN_SEGMENTS, Setting, Settings,
-    Shape,
-};
+use super::{CameraSettings, Environment, FileReference, MAX_SEGMENTS, MIN_SEGMENTS, Setting, Settings, Shape};
 use crate::diagnostic::{Diagnostic, Place, Span, did_you_mean};
 use crate::ron::{Field, Node, Tree, field};
 use crate::semantic::Value;
@@ -27,12 +24,7 @@ fn variant<'a>(
         other => {
             let names: Vec<&str> = known.iter().map(|k| k.0).collect();
             let message = format!("expected {what}, found {}", other.describe());
-            report.error(
-                "ST0408",
-                message,
-                node,
-                &format!("write one of {}", names.join(", ")),
-            );
+            report.error("ST0408", message, node, &format!("write one of {}", names.join(", ")));
             return None;
         }
     };
@@ -47,31 +39,16 @@ fn variant<'a>(
     };
     if !items.is_empty() && !allowed.contains(&"*") {
         let message = format!("`{name}` takes named fields");
-        report.error(
-            "ST0409",
-            message,
-            node,
-            &format!("write `{name}({}: ...)`", allowed.first().unwrap_or(&"")),
-        );
+        report.error("ST0409", message, node, &format!("write `{name}({}: ...)`", allowed.first().unwrap_or(&"")));
         return None;
     }
-    for f in fields
-        .iter()
-        .filter(|f| !allowed.contains(&f.name.as_str()))
-    {
+    for f in fields.iter().filter(|f| !allowed.contains(&f.name.as_str())) {
         let help = match did_you_mean(&f.name, allowed.iter().copied()) {
             Some(near) => format!("did you mean `{near}`?"),
             None => format!("its fields: {}", allowed.join(", ")),
         };
         let place = Place::span(Span::new(&report.source, f.name_span.clone()));
-        report.push(
-            Diagnostic::error(
-                "ST0409",
-                format!("`{name}` has no field `{}`", f.name),
-                place,
-            )
-            .help(help),
-        );
+        report.push(Diagnostic::error("ST0409", format!("`{name}` has no field `{}`", f.name), place).help(help));
     }
     Some((name, fields, items))
 }
@@ -90,9 +67,7 @@ pub(super) fn shape(node: &Node, report: &mut Report) -> Option<Shape> {
     let shape = match name {
         "Plane" => Shape::Plane {
             size: report.get(fields, "size", [1.0; 2], Node::as_array),
-            segments: report
-                .get(fields, "segments", [1.0; 2], Node::as_array)
-                .map(|n| whole(n, 1, node, report)),
+            segments: report.get(fields, "segments", [1.0; 2], Node::as_array).map(|n| whole(n, 1, node, report)),
         },
         "Box" => Shape::Box {
             size: report.get(fields, "size", [1.0; 3], Node::as_array),
@@ -128,24 +103,14 @@ pub(super) fn shape(node: &Node, report: &mut Report) -> Option<Shape> {
 
 fn segments(fields: &[Field], default: u32, node: &Node, report: &mut Report) -> u32 {
     let given = report.get(fields, "segments", f64::from(default), Node::as_f64);
-    whole(
-        given,
-        MIN_SEGMENTS,
-        field(fields, "segments").unwrap_or(node),
-        report,
-    )
+    whole(given, MIN_SEGMENTS, field(fields, "segments").unwrap_or(node), report)
 }
 
 /// A number of segments.
 fn whole(x: f64, min: u32, node: &Node, report: &mut Report) -> u32 {
     if x.fract() != 0.0 || x < f64::from(min) || x > f64::from(MAX_SEGMENTS) {
         let message = format!("{x} is not a number of segments");
-        report.error(
-            "ST0404",
-            message,
-            node,
-            &format!("write a whole number from {min} to {MAX_SEGMENTS}"),
-        );
+        report.error("ST0404", message, node, &format!("write a whole number from {min} to {MAX_SEGMENTS}"));
         return min;
     }
     x as u32
@@ -162,20 +127,10 @@ fn check_shape(shape: &Shape, node: &Node, report: &mut Report) {
     };
     if let Some(x) = extents.iter().find(|x| **x <= 0.0) {
         let message = format!("this {} has no size: {x}", shape.name());
-        report.error(
-            "ST0407",
-            message,
-            node,
-            "give every extent as a number of metres greater than 0",
-        );
+        report.error("ST0407", message, node, "give every extent as a number of metres greater than 0");
     } else if let Some(x) = extents.iter().find(|x| !(1e-6..=1e6).contains(*x)) {
         let message = format!("an extent of {x} m cannot be shown");
-        report.error(
-            "ST0404",
-            message,
-            node,
-            "extents lie between 0.000001 and 1000000 metres",
-        );
+        report.error("ST0404", message, node, "extents lie between 0.000001 and 1000000 metres");
     }
     match shape {
         Shape::Box { size, bevel } => {
@@ -202,17 +157,7 @@ fn check_shape(shape: &Shape, node: &Node, report: &mut Report) {
 pub(super) fn environment(node: &Node, report: &mut Report) -> Option<Environment> {
     let known: [(&str, &[&str]); 3] = [
         ("Color", &["color", "*"]),
-        (
-            "Sky",
-            &[
-                "zenith",
-                "horizon",
-                "ground",
-                "sun_direction",
-                "sun_glow",
-                "intensity",
-            ],
-        ),
+        ("Sky", &["zenith", "horizon", "ground", "sun_direction", "sun_glow", "intensity"]),
         ("Image", &["path", "rotation", "intensity"]),
     ];
     let (name, fields, items) = variant(node, &known, "an environment", report)?;
@@ -222,17 +167,9 @@ pub(super) fn environment(node: &Node, report: &mut Report) -> Option<Environmen
             [] => report.get(fields, "color", [0.0; 3], Node::as_array),
             [one] => report.take(one.as_array(&source))?,
             many => {
-                let numbers: Vec<f64> = many
-                    .iter()
-                    .filter_map(|n| report.take(n.as_f64(&source)))
-                    .collect();
+                let numbers: Vec<f64> = many.iter().filter_map(|n| report.take(n.as_f64(&source))).collect();
                 let Ok(color) = numbers.try_into() else {
-                    report.error(
-                        "ST0408",
-                        "a colour has 3 numbers",
-                        node,
-                        "write `Color(0.2, 0.3, 0.5)`",
-                    );
+                    report.error("ST0408", "a colour has 3 numbers", node, "write `Color(0.2, 0.3, 0.5)`");
                     return None;
                 };
                 color
@@ -257,14 +194,7 @@ pub(super) fn environment(node: &Node, report: &mut Report) -> Option<Environmen
     };
     let amounts = match &environment {
         Environment::Color(color) => color.to_vec(),
-        Environment::Sky(s) => [
-            &s.zenith[..],
-            &s.horizon,
-            &s.ground,
-            &s.sun_glow,
-            &[s.intensity],
-        ]
-        .concat(),
+        Environment::Sky(s) => [&s.zenith[..], &s.horizon, &s.ground, &s.sun_glow, &[s.intensity]].concat(),
         Environment::Image { intensity, .. } => vec![*intensity],
     };
     // Half floats, which a renderer may store it in, end at 65504.
@@ -288,19 +218,9 @@ pub(super) fn environment(node: &Node, report: &mut Report) -> Option<Environmen
 }
 
 /// A path that must be given.
-pub(super) fn path(
-    fields: &[Field],
-    name: &str,
-    owner: &Node,
-    report: &mut Report,
-) -> FileReference {
+pub(super) fn path(fields: &[Field], name: &str, owner: &Node, report: &mut Report) -> FileReference {
     let Some(node) = field(fields, name) else {
-        report.error(
-            "ST0011",
-            format!("the field `{name}` is missing"),
-            owner,
-            &format!("add `{name}: \"FILE\"`"),
-        );
+        report.error("ST0011", format!("the field `{name}` is missing"), owner, &format!("add `{name}: \"FILE\"`"));
         return FileReference::default();
     };
     let source = report.source.clone();
@@ -310,17 +230,9 @@ pub(super) fn path(
 
 fn reference(text: String, node: &Node, report: &mut Report) -> FileReference {
     if text.trim().is_empty() || text.contains('\0') {
-        report.error(
-            "ST0411",
-            "the path is empty",
-            node,
-            "write the path of a file, relative to this one",
-        );
+        report.error("ST0411", "the path is empty", node, "write the path of a file, relative to this one");
     }
-    FileReference {
-        path: text,
-        span: Some(report.span(node)),
-    }
+    FileReference { path: text, span: Some(report.span(node)) }
 }
 
 /// The field `set`.
@@ -332,10 +244,7 @@ pub(super) fn settings(fields: &[Field], report: &mut Report) -> Settings {
         let Some(name) = report.take(key.as_str(&source)) else {
             continue;
         };
-        if !name
-            .split_once('.')
-            .is_some_and(|(node, port)| !node.trim().is_empty() && !port.trim().is_empty())
-        {
+        if !name.split_once('.').is_some_and(|(node, port)| !node.trim().is_empty() && !port.trim().is_empty()) {
             let help = "write the name of a node of the graph, a dot, and the name of its port";
             report.error("ST0412", format!("`{name}` is not `node.port`"), key, help);
         }
@@ -357,58 +266,26 @@ pub(super) fn settings(fields: &[Field], report: &mut Report) -> Settings {
             }
         };
         if let Some(value) = value {
-            settings.insert(
-                name.to_string(),
-                Setting {
-                    value,
-                    span: Some(report.span(node)),
-                },
-            );
+            settings.insert(name.to_string(), Setting { value, span: Some(report.span(node)) });
         }
     }
     settings
 }
 
 /// Whether the camera can see.
-pub(super) fn check_camera(
-    camera: &CameraSettings,
-    node: &Node,
-    fields: &[Field],
-    report: &mut Report,
-) {
+pub(super) fn check_camera(camera: &CameraSettings, node: &Node, fields: &[Field], report: &mut Report) {
     let at = |name: &str| field(fields, name).unwrap_or(node);
     if !(camera.fov > 0.0 && camera.fov < 180.0) {
         let message = format!("a field of view of {} degrees is impossible", camera.fov);
-        report.error(
-            "ST0404",
-            message,
-            at("fov"),
-            "write the vertical angle in degrees, for example 40",
-        );
+        report.error("ST0404", message, at("fov"), "write the vertical angle in degrees, for example 40");
     }
     if camera.near <= 0.0 {
-        let message = format!(
-            "the near distance {} is not in front of the camera",
-            camera.near
-        );
-        report.error(
-            "ST0404",
-            message,
-            at("near"),
-            "write a distance greater than 0, for example 0.1",
-        );
+        let message = format!("the near distance {} is not in front of the camera", camera.near);
+        report.error("ST0404", message, at("near"), "write a distance greater than 0, for example 0.1");
     }
     if camera.far <= camera.near {
-        let message = format!(
-            "the far distance {} is not beyond the near distance {}",
-            camera.far, camera.near
-        );
-        report.error(
-            "ST0406",
-            message,
-            at("far"),
-            "make `far` greater than `near`",
-        );
+        let message = format!("the far distance {} is not beyond the near distance {}", camera.far, camera.near);
+        report.error("ST0406", message, at("far"), "make `far` greater than `near`");
     }
     let view = DVec3::from_array(camera.target) - DVec3::from_array(camera.position);
     let up = DVec3::from_array(camera.up);

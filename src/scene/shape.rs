@@ -69,22 +69,13 @@ impl Shape {
     pub fn mesh(&self) -> Option<Mesh> {
         let round = |n: u32| n.clamp(MIN_SEGMENTS, MAX_SEGMENTS);
         Some(match *self {
-            Self::Plane { size, segments } => {
-                primitive::plane(size, segments.map(|n| n.clamp(1, MAX_SEGMENTS)))
-            }
+            Self::Plane { size, segments } => primitive::plane(size, segments.map(|n| n.clamp(1, MAX_SEGMENTS))),
             Self::Box { size, bevel } => primitive::cuboid(size, bevel),
             Self::Sphere { radius, segments } => primitive::sphere(radius, round(segments)),
-            Self::Cylinder {
-                radius,
-                height,
-                capped,
-                segments,
-            } => primitive::cylinder(radius, height, capped, round(segments)),
-            Self::Torus {
-                major,
-                minor,
-                segments,
-            } => primitive::torus(major, minor, round(segments)),
+            Self::Cylinder { radius, height, capped, segments } => {
+                primitive::cylinder(radius, height, capped, round(segments))
+            }
+            Self::Torus { major, minor, segments } => primitive::torus(major, minor, round(segments)),
             Self::Obj(_) => return None,
         })
     }

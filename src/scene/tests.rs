@@ -59,14 +59,7 @@ const FULL: &str = r#"Scene(
 fn read_text(text: &str) -> (Option<Scene>, Vec<String>) {
     let (scene, found) = read(&SourceText::new("s.ron", text));
     let spot = |d: &crate::diagnostic::Diagnostic| match &d.place.span {
-        Some(span) => format!(
-            "{} {}",
-            d.code,
-            &span.source.text[span.range.clone()]
-                .lines()
-                .next()
-                .unwrap_or("")
-        ),
+        Some(span) => format!("{} {}", d.code, &span.source.text[span.range.clone()].lines().next().unwrap_or("")),
         None => d.code.to_string(),
     };
     (scene, found.iter().map(spot).collect())
@@ -110,13 +103,9 @@ fn order_and_spelling_become_canonical_and_comments_notes() {
 
 #[test]
 fn every_mistake_has_its_code_and_place() {
-    let object = |inner: &str| {
-        format!("Scene(version: 1, camera: (fov: 40), objects: {{\"o\": ({inner})}})")
-    };
+    let object = |inner: &str| format!("Scene(version: 1, camera: (fov: 40), objects: {{\"o\": ({inner})}})");
     let scene = |inner: &str| {
-        format!(
-            "Scene(version: 1, camera: ({inner}), objects: {{\"o\": (shape: Sphere, surface: \"s\")}})"
-        )
+        format!("Scene(version: 1, camera: ({inner}), objects: {{\"o\": (shape: Sphere, surface: \"s\")}})")
     };
     let cases = [
         ("Graph(version: 1)".to_string(), "ST0400 Graph(version: 1)"),
@@ -145,23 +134,13 @@ fn every_mistake_has_its_code_and_place() {
     ];
     for (text, expected) in cases {
         let (_, found) = read_text(&text);
-        assert!(
-            found.iter().any(|f| f == expected),
-            "{text}\nexpected {expected}, found {found:?}"
-        );
+        assert!(found.iter().any(|f| f == expected), "{text}\nexpected {expected}, found {found:?}");
     }
-    let (_, found) =
-        read_text("Scene(camera: (fov: 0), objects: {\"o\": (scale: 0)}, environment: Colour(1))");
+    let (_, found) = read_text("Scene(camera: (fov: 0), objects: {\"o\": (scale: 0)}, environment: Colour(1))");
     let codes: Vec<&str> = found.iter().map(|f| &f[..6]).collect();
-    assert_eq!(
-        codes,
-        ["ST0401", "ST0404", "ST0408", "ST0011", "ST0407", "ST0011"]
-    );
+    assert_eq!(codes, ["ST0401", "ST0404", "ST0408", "ST0011", "ST0407", "ST0011"]);
     let (scene, found) = read_text("Scene(version: 1, camera: (fov: 40))");
-    assert!(
-        scene.is_some() && found.len() == 1 && found[0].starts_with("ST0410"),
-        "{found:?}"
-    );
+    assert!(scene.is_some() && found.len() == 1 && found[0].starts_with("ST0410"), "{found:?}");
 }
 
 #[test]
@@ -171,14 +150,7 @@ fn codes_are_sorted_and_explained_once() {
 
 #[test]
 fn rotations_turn_about_fixed_axes_x_first() {
-    let turned = |rotate| {
-        Transform {
-            rotate,
-            ..Transform::default()
-        }
-        .matrix()
-        .transform_vector3(glam::Vec3::Y)
-    };
+    let turned = |rotate| Transform { rotate, ..Transform::default() }.matrix().transform_vector3(glam::Vec3::Y);
     assert!((turned([90.0, 0.0, 0.0]) - glam::Vec3::Z).length() < 1e-6);
     assert!((turned([90.0, 90.0, 0.0]) - glam::Vec3::X).length() < 1e-6);
     assert!((turned([90.0, 90.0, 90.0]) - glam::Vec3::Y).length() < 1e-6);
@@ -187,12 +159,8 @@ fn rotations_turn_about_fixed_axes_x_first() {
 /// Every file with this ending under a folder of the project.
 fn files(folder: &str, ending: &str) -> Vec<std::path::PathBuf> {
     let root = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join(folder);
-    let found = std::fs::read_dir(root)
-        .unwrap()
-        .map(|entry| entry.unwrap().path());
-    found
-        .filter(|path| path.extension().is_some_and(|e| e == ending))
-        .collect()
+    let found = std::fs::read_dir(root).unwrap().map(|entry| entry.unwrap().path());
+    found.filter(|path| path.extension().is_some_and(|e| e == ending)).collect()
 }
 
 #[test]
@@ -204,28 +172,15 @@ fn example_scenes_are_canonical_and_name_files_that_exist() {
         let (scene, found) = read(&SourceText::new(path.display().to_string(), text.clone()));
         assert!(found.is_empty(), "{}: {found:?}", path.display());
         let scene = scene.unwrap();
-        assert!(
-            !scene.note.is_empty() && !scene.name.is_empty(),
-            "{}",
-            path.display()
-        );
+        assert!(!scene.note.is_empty() && !scene.name.is_empty(), "{}", path.display());
         assert_eq!(write(&scene), text, "{}", path.display());
         let models = scene.objects.iter().filter_map(|o| match &o.shape {
             Shape::Obj(file) => Some(file),
             _ => None,
         });
-        let graphs = scene
-            .lights
-            .iter()
-            .map(|l| &l.graph)
-            .chain(scene.objects.iter().map(|o| &o.surface));
+        let graphs = scene.lights.iter().map(|l| &l.graph).chain(scene.objects.iter().map(|o| &o.surface));
         for file in models.chain(graphs) {
-            assert!(
-                path.with_file_name("").join(&file.path).is_file(),
-                "{}: {}",
-                path.display(),
-                file.path
-            );
+            assert!(path.with_file_name("").join(&file.path).is_file(), "{}: {}", path.display(), file.path);
         }
     }
 }
@@ -235,15 +190,10 @@ fn example_graphs_are_canonical() {
     for folder in ["graphs/lights", "graphs/surfaces", "graphs/lib"] {
         for path in files(folder, "ron") {
             let text = std::fs::read_to_string(&path).unwrap();
-            let (graph, found) =
-                crate::graph::read(&SourceText::new(path.display().to_string(), text.clone()));
+            let (graph, found) = crate::graph::read(&SourceText::new(path.display().to_string(), text.clone()));
             assert!(found.is_empty(), "{}: {found:?}", path.display());
             let graph = graph.unwrap();
-            assert!(
-                !graph.note.is_empty() && !graph.name.is_empty(),
-                "{}",
-                path.display()
-            );
+            assert!(!graph.note.is_empty() && !graph.name.is_empty(), "{}", path.display());
             assert_eq!(crate::graph::write(&graph), text, "{}", path.display());
         }
     }
@@ -256,22 +206,9 @@ fn example_models_are_sound() {
     for path in models {
         let text = std::fs::read_to_string(&path).unwrap();
         let mesh = from_obj(&SourceText::new(path.display().to_string(), text)).unwrap();
-        assert!(
-            mesh.normals.iter().all(|n| n.is_normalized()),
-            "{}",
-            path.display()
-        );
-        assert!(
-            mesh.tangents
-                .iter()
-                .zip(&mesh.normals)
-                .all(|(t, n)| n.dot(t.truncate()).abs() < 1e-4)
-        );
-        assert!(
-            checks::volume(&mesh) > 0.0,
-            "{} is inside out",
-            path.display()
-        );
+        assert!(mesh.normals.iter().all(|n| n.is_normalized()), "{}", path.display());
+        assert!(mesh.tangents.iter().zip(&mesh.normals).all(|(t, n)| n.dot(t.truncate()).abs() < 1e-4));
+        assert!(checks::volume(&mesh) > 0.0, "{} is inside out", path.display());
     }
 }
 

@@ -16,11 +16,7 @@ pub struct Transform {
 
 impl Default for Transform {
     fn default() -> Self {
-        Self {
-            translate: [0.0; 3],
-            rotate: [0.0; 3],
-            scale: [1.0; 3],
-        }
+        Self { translate: [0.0; 3], rotate: [0.0; 3], scale: [1.0; 3] }
     }
 }
 
@@ -30,10 +26,7 @@ impl Transform {
         let [x, y, z] = self.rotate.map(f64::to_radians);
         // Fixed axes x, y, z are moving axes z, y, x.
         let rotation = DQuat::from_euler(EulerRot::ZYX, z, y, x);
-        let (scale, translate) = (
-            DVec3::from_array(self.scale),
-            DVec3::from_array(self.translate),
-        );
+        let (scale, translate) = (DVec3::from_array(self.scale), DVec3::from_array(self.translate));
         DMat4::from_scale_rotation_translation(scale, rotation, translate).as_mat4()
     }
 }

@@ -1,10 +1,7 @@
 //! The one text of a scene: sorted by name, one field a line, what equals its default left out.
 
 use super::environment::Sky;
-use super::{
-    CameraSettings, Environment, LightInstance, Object, Scene, Settings, Shape, Transform, Unknown,
-    VERSION,
-};
+use super::{CameraSettings, Environment, LightInstance, Object, Scene, Settings, Shape, Transform, Unknown, VERSION};
 use crate::ron::{identifier, inline, number, text};
 use crate::semantic::Value;
 
@@ -21,18 +18,10 @@ pub fn write(scene: &Scene) -> String {
     out += &head.lines(1);
     let mut lights: Vec<&LightInstance> = scene.lights.iter().collect();
     lights.sort_by(|a, b| a.name.cmp(&b.name));
-    block(
-        &mut out,
-        "lights",
-        lights.into_iter().map(|l| (&l.name, light(l))),
-    );
+    block(&mut out, "lights", lights.into_iter().map(|l| (&l.name, light(l))));
     let mut objects: Vec<&Object> = scene.objects.iter().collect();
     objects.sort_by(|a, b| a.name.cmp(&b.name));
-    block(
-        &mut out,
-        "objects",
-        objects.into_iter().map(|o| (&o.name, object(o))),
-    );
+    block(&mut out, "objects", objects.into_iter().map(|o| (&o.name, object(o))));
     let mut rest = Fields::default();
     rest.unknown(&scene.unknown);
     out + &rest.lines(1) + ")\n"
@@ -54,13 +43,7 @@ impl Fields {
     }
 
     /// Left out where it equals the default.
-    fn other<T: PartialEq>(
-        &mut self,
-        name: &str,
-        value: T,
-        default: T,
-        write: impl Fn(T) -> String,
-    ) {
+    fn other<T: PartialEq>(&mut self, name: &str, value: T, default: T, write: impl Fn(T) -> String) {
         if value != default {
             self.add(name, write(value));
         }
@@ -73,10 +56,7 @@ impl Fields {
     }
 
     fn lines(&self, level: usize) -> String {
-        self.0
-            .iter()
-            .map(|field| format!("{}{field},\n", "    ".repeat(level)))
-            .collect()
+        self.0.iter().map(|field| format!("{}{field},\n", "    ".repeat(level))).collect()
     }
 
     fn inline(&self) -> String {
@@ -127,11 +107,7 @@ fn environment(environment: &Environment) -> String {
             fields.other("intensity", sky.intensity, d.intensity, number);
             format!("Sky{}", fields.inline())
         }
-        Environment::Image {
-            image,
-            rotation,
-            intensity,
-        } => {
+        Environment::Image { image, rotation, intensity } => {
             let mut fields = Fields::default();
             fields.add("path", text(&image.path));
             fields.other("rotation", *rotation, 0.0, number);
@@ -159,13 +135,7 @@ fn object(object: &Object) -> Fields {
     settings(&mut fields, &object.set);
     fields.other("translate", object.transform.translate, d.translate, tuple);
     fields.other("rotate", object.transform.rotate, d.rotate, tuple);
-    fields.other("scale", object.transform.scale, d.scale, |s| {
-        if s == [s[0]; 3] {
-            number(s[0])
-        } else {
-            tuple(s)
-        }
-    });
+    fields.other("scale", object.transform.scale, d.scale, |s| if s == [s[0]; 3] { number(s[0]) } else { tuple(s) });
     fields.other("casts", object.casts, true, |b| b.to_string());
     fields.other("receives", object.receives, true, |b| b.to_string());
     fields.unknown(&object.unknown);
@@ -181,13 +151,7 @@ fn settings(fields: &mut Fields, settings: &Settings) {
                 Value::Text(t) => text(t),
                 Value::Numbers(n) => match n.as_slice() {
                     [one] => number(*one),
-                    many => format!(
-                        "({})",
-                        many.iter()
-                            .map(|x| number(*x))
-                            .collect::<Vec<_>>()
-                            .join(", ")
-                    ),
+                    many => format!("({})", many.iter().map(|x| number(*x)).collect::<Vec<_>>().join(", ")),
                 },
             };
             format!("{}: {value}", text(name))
@@ -214,22 +178,13 @@ fn shape(shape: &Shape) -> String {
             fields.add("radius", number(*radius));
             fields.other("segments", *segments, Shape::SPHERE_SEGMENTS, whole);
         }
-        Shape::Cylinder {
-            radius,
-            height,
-            capped,
-            segments,
-        } => {
+        Shape::Cylinder { radius, height, capped, segments } => {
             fields.add("radius", number(*radius));
             fields.add("height", number(*height));
             fields.other("capped", *capped, true, |b| b.to_string());
             fields.other("segments", *segments, Shape::CYLINDER_SEGMENTS, whole);
         }
-        Shape::Torus {
-            major,
-            minor,
-            segments,
-        } => {
+        Shape::Torus { major, minor, segments } => {
             fields.add("major", number(*major));
             fields.add("minor", number(*minor));
             fields.other("segments", *segments, Shape::TORUS_SEGMENTS, whole);

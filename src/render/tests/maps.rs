@@ -4,8 +4,7 @@ use super::*;
 use crate::module::{Address, SamplerSettings};
 use crate::plan::{Light, Map, Pass, PassKind, Space};
 
-const LIGHT_SPACE: &str =
-    "struct LightSpace { world_to_light: mat4x4f, projection: vec4f, depth: vec4f }
+const LIGHT_SPACE: &str = "struct LightSpace { world_to_light: mat4x4f, projection: vec4f, depth: vec4f }
 struct Object { world: mat4x4f }
 @group(0) @binding(0) var<uniform> light: LightSpace;
 @group(1) @binding(0) var<uniform> object: Object;
@@ -40,14 +39,8 @@ fn pass(name: &str, kind: PassKind, wgsl: String, targets: &[&str]) -> Pass {
 }
 
 fn depth_pass() -> Pass {
-    let fragment =
-        "@fragment fn fs_main(in: Varying) -> @builtin(frag_depth) f32 { return linear(in.z); }";
-    pass(
-        "depth",
-        PassKind::Geometry,
-        format!("{LIGHT_SPACE}{fragment}"),
-        &["depth32float"],
-    )
+    let fragment = "@fragment fn fs_main(in: Varying) -> @builtin(frag_depth) f32 { return linear(in.z); }";
+    pass("depth", PassKind::Geometry, format!("{LIGHT_SPACE}{fragment}"), &["depth32float"])
 }
 
 const COLOR: [&str; 3] = ["rg32float", "rg16unorm", "rg16float"];
@@ -71,12 +64,7 @@ fn moment_passes() -> Vec<Pass> {
 }}"
     );
     vec![
-        pass(
-            "moments",
-            PassKind::Geometry,
-            format!("{LIGHT_SPACE}{fragment}"),
-            &COLOR,
-        ),
+        pass("moments", PassKind::Geometry, format!("{LIGHT_SPACE}{fragment}"), &COLOR),
         pass("shift", PassKind::Image, shift("8, 0"), &COLOR),
         pass("shift", PassKind::Image, shift("0, 8"), &COLOR),
         pass("mips", PassKind::Mip, mip, &COLOR),
@@ -84,13 +72,7 @@ fn moment_passes() -> Vec<Pass> {
 }
 
 /// A sun along -z over a ball of radius 2, with a map; `body` reads `map` and `space`.
-fn lit(
-    passes: Vec<Pass>,
-    declarations: &str,
-    body: &str,
-    depth: bool,
-    settings: SamplerSettings,
-) -> Compiled {
+fn lit(passes: Vec<Pass>, declarations: &str, body: &str, depth: bool, settings: SamplerSettings) -> Compiled {
     let declarations = format!(
         "struct LightSpace {{ world_to_light: mat4x4f, projection: vec4f, depth: vec4f }}
 @group(3) @binding(0) var<uniform> space: LightSpace;
@@ -104,14 +86,7 @@ fn map_place(world: vec3f) -> vec3f {{
         &declarations,
         body,
         vec![
-            binding(
-                3,
-                0,
-                "space",
-                Resource::Space {
-                    light: "sun".into(),
-                },
-            ),
+            binding(3, 0, "space", Resource::Space { light: "sun".into() }),
             binding(3, 1, "map", Resource::Map { index: 0, depth }),
             binding(3, 2, "map_sampler", Resource::Sampler(settings.clone())),
         ],
@@ -122,39 +97,17 @@ fn map_place(world: vec3f) -> vec3f {{
         parameter("sun.radius", Shape::F32(1), 28, &[2.0]),
     ];
     shader.module.parameter_bytes = 32;
-    let inputs = ["sun.direction", "sun.center", "sun.radius"]
-        .map(String::from)
-        .to_vec();
-    let space = Some(Space {
-        projection: "orthographic".into(),
-        inputs,
-    });
-    shader.plan.lights = vec![Light {
-        name: "sun".into(),
-        space,
-    }];
-    shader.plan.maps = vec![Map {
-        light: "sun".into(),
-        passes,
-        filtered: settings.linear,
-    }];
+    let inputs = ["sun.direction", "sun.center", "sun.radius"].map(String::from).to_vec();
+    let space = Some(Space { projection: "orthographic".into(), inputs });
+    shader.plan.lights = vec![Light { name: "sun".into(), space }];
+    shader.plan.maps = vec![Map { light: "sun".into(), passes, filtered: settings.linear }];
     shader
 }
 
-const COMPARE: SamplerSettings = SamplerSettings {
-    linear: true,
-    mip_linear: false,
-    address: Address::Clamp,
-    anisotropy: 1,
-    compare: true,
-};
-const TRILINEAR: SamplerSettings = SamplerSettings {
-    linear: true,
-    mip_linear: true,
-    address: Address::Clamp,
-    anisotropy: 4,
-    compare: false,
-};
+const COMPARE: SamplerSettings =
+    SamplerSettings { linear: true, mip_linear: false, address: Address::Clamp, anisotropy: 1, compare: true };
+const TRILINEAR: SamplerSettings =
+    SamplerSettings { linear: true, mip_linear: true, address: Address::Clamp, anisotropy: 4, compare: false };
 
 fn shadowed() -> Compiled {
     lit(
@@ -170,19 +123,9 @@ fn shadowed() -> Compiled {
 
 /// A floor of 4 by 4 metres at z = 0 and an upright square of 1 by 1 metre above its upper right quarter at z = 1.
 fn floor_and_roof<'a>(mesh: &'a Mesh, shader: &'a Compiled) -> Vec<Draw<'a>> {
-    let floor = Draw {
-        object_to_world: Mat4::from_scale(Vec3::new(2.0, 2.0, 1.0)),
-        ..draw(mesh, shader)
-    };
-    let place = Mat4::from_translation(Vec3::new(1.0, 1.0, 1.0))
-        * Mat4::from_scale(Vec3::new(0.5, 0.5, 1.0));
-    vec![
-        floor,
-        Draw {
-            object_to_world: place,
-            ..draw(mesh, shader)
-        },
-    ]
+    let floor = Draw { object_to_world: Mat4::from_scale(Vec3::new(2.0, 2.0, 1.0)), ..draw(mesh, shader) };
+    let place = Mat4::from_translation(Vec3::new(1.0, 1.0, 1.0)) * Mat4::from_scale(Vec3::new(0.5, 0.5, 1.0));
+    vec![floor, Draw { object_to_world: place, ..draw(mesh, shader) }]
 }
 
 #[test]
@@ -194,42 +137,17 @@ fn a_depth_map_shadows_what_lies_behind() {
     job.size = (64, 64);
     job.camera.position = Vec3::new(-3.0, -3.0, 4.0);
     let frame = gpu.render(&job).expect("renders");
-    let dark = |frame: &Frame| {
-        frame
-            .pixels
-            .iter()
-            .filter(|p| p[3] > 0.5 && p[0] < 0.1)
-            .count()
-    };
+    let dark = |frame: &Frame| frame.pixels.iter().filter(|p| p[3] > 0.5 && p[0] < 0.1).count();
     let shadow = dark(&frame);
     assert!(shadow > 20, "{shadow} pixels in shadow");
-    assert_eq!(
-        frame
-            .timings
-            .iter()
-            .map(|t| t.name.as_str())
-            .collect::<Vec<_>>(),
-        ["sun: depth", "main"]
-    );
-    assert_eq!(
-        gpu.pipelines_built(),
-        2,
-        "both draws share map and pipelines"
-    );
+    assert_eq!(frame.timings.iter().map(|t| t.name.as_str()).collect::<Vec<_>>(), ["sun: depth", "main"]);
+    assert_eq!(gpu.pipelines_built(), 2, "both draws share map and pipelines");
 
     job.draws[0].receives = false;
-    assert_eq!(
-        dark(&gpu.render(&job).expect("renders")),
-        0,
-        "the floor takes no shadow"
-    );
+    assert_eq!(dark(&gpu.render(&job).expect("renders")), 0, "the floor takes no shadow");
     job.draws[0].receives = true;
     job.draws[1].casts = false;
-    assert_eq!(
-        dark(&gpu.render(&job).expect("renders")),
-        0,
-        "the roof casts none"
-    );
+    assert_eq!(dark(&gpu.render(&job).expect("renders")), 0, "the roof casts none");
 }
 
 #[test]
@@ -244,24 +162,13 @@ fn a_depth_map_can_be_read_back() {
         return;
     }
     let map = map.expect("renders");
-    assert_eq!(
-        (map.size, map.channels, map.format),
-        ((64, 64), 1, "depth32float")
-    );
+    assert_eq!((map.size, map.channels, map.format), ((64, 64), 1, "depth32float"));
     // In light space +x is the world's -x here, so the roof is in the upper left quarter of the map.
     let at = |x: usize, y: usize| map.pixels[y * 64 + x][0];
     let metres = |v: f32| v * (map.space.depth.y - map.space.depth.x);
-    assert!(
-        (metres(at(48, 48)) - metres(at(16, 16)) - 1.0).abs() < 1e-3,
-        "{} {}",
-        at(48, 48),
-        at(16, 16)
-    );
+    assert!((metres(at(48, 48)) - metres(at(16, 16)) - 1.0).abs() < 1e-3, "{} {}", at(48, 48), at(16, 16));
     let error = gpu.map(&job, "moon", 0).expect_err("no such light");
-    assert!(
-        error.to_string().contains("lights with maps: sun"),
-        "{error}"
-    );
+    assert!(error.to_string().contains("lights with maps: sun"), "{error}");
 }
 
 fn filtered() -> Compiled {
@@ -284,55 +191,22 @@ fn image_passes_run_in_order_and_mips_average() {
     assert_eq!(map.channels, 2);
     // The square covers the middle 32 texels; both shifts move it by 8 to the upper left.
     let covered = |x: usize, y: usize| map.pixels[y * 64 + x][1] < 0.75;
-    for (x, y, expected) in [
-        (7, 20, false),
-        (8, 20, true),
-        (39, 20, true),
-        (40, 20, false),
-        (20, 7, false),
-        (20, 8, true),
-    ] {
+    for (x, y, expected) in
+        [(7, 20, false), (8, 20, true), (39, 20, true), (40, 20, false), (20, 7, false), (20, 8, true)]
+    {
         assert_eq!(covered(x, y), expected, "texel {x}, {y}");
     }
     let frame = gpu.render(&job).expect("renders");
     assert_eq!(frame.pixels[8 * 16 + 8][2], 7.0, "64 texels have 7 levels");
     // A quarter of the map holds 0.5 and the rest 1.
-    assert!(
-        (pixel(&frame, 9, 8)[1] - 0.875).abs() < 2e-3,
-        "{:?}",
-        pixel(&frame, 9, 8)
-    );
+    assert!((pixel(&frame, 9, 8)[1] - 0.875).abs() < 2e-3, "{:?}", pixel(&frame, 9, 8));
     let names: Vec<&str> = frame.timings.iter().map(|t| t.name.as_str()).collect();
-    assert_eq!(
-        names,
-        [
-            "sun: moments",
-            "sun: shift",
-            "sun: shift",
-            "sun: mips",
-            "main"
-        ]
-    );
-    if gpu
-        .adapter()
-        .features
-        .iter()
-        .any(|f| f == "timestamp-query")
-    {
-        assert!(
-            frame.timings.iter().all(|t| t.milliseconds.is_some()),
-            "{:?}",
-            frame.timings
-        );
+    assert_eq!(names, ["sun: moments", "sun: shift", "sun: shift", "sun: mips", "main"]);
+    if gpu.adapter().features.iter().any(|f| f == "timestamp-query") {
+        assert!(frame.timings.iter().all(|t| t.milliseconds.is_some()), "{:?}", frame.timings);
     }
     let first_choice = map.format == COLOR[0];
-    assert_eq!(
-        frame.messages.is_empty(),
-        first_choice,
-        "{} {:?}",
-        map.format,
-        frame.messages
-    );
+    assert_eq!(frame.messages.is_empty(), first_choice, "{} {:?}", map.format, frame.messages);
 }
 
 #[test]
@@ -342,22 +216,16 @@ fn plans_that_make_no_sense_are_refused() {
     let mut refused = |change: &dyn Fn(&mut Compiled)| {
         let mut shader = filtered();
         change(&mut shader);
-        gpu.render(&job(vec![draw(&mesh, &shader)]))
-            .expect_err("refused")
-            .to_string()
+        gpu.render(&job(vec![draw(&mesh, &shader)])).expect_err("refused").to_string()
     };
     assert!(refused(&|s| s.plan.maps[0].passes.reverse()).contains("one geometry pass"));
     assert!(refused(&|s| s.plan.maps[0].light = "moon".into()).contains("moon"));
-    assert!(
-        refused(&|s| s.plan.maps[0].passes[0].targets = vec!["rg12float".into()]).contains("rg")
-    );
+    assert!(refused(&|s| s.plan.maps[0].passes[0].targets = vec!["rg12float".into()]).contains("rg"));
     assert!(refused(&|s| s.plan.lights[0].space = None).contains("no projection"));
     assert!(refused(&|s| s.plan.maps.clear()).contains("`map`"));
     let size = |text: &'static str| {
         move |s: &mut Compiled| {
-            s.plan.maps[0].passes[0]
-                .choices
-                .insert("size".into(), text.into());
+            s.plan.maps[0].passes[0].choices.insert("size".into(), text.into());
         }
     };
     assert!(refused(&size("0")).contains("no pixels"));
@@ -369,11 +237,7 @@ fn a_degenerate_light_is_named_by_its_parameter() {
     let Some(mut gpu) = gpu() else { return };
     let (mesh, shader) = (square(), shadowed());
     let mut dark = draw(&mesh, &shader);
-    dark.values
-        .insert("sun.direction".into(), Value::Numbers(vec![0.0, 0.0, 0.0]));
+    dark.values.insert("sun.direction".into(), Value::Numbers(vec![0.0, 0.0, 0.0]));
     let error = gpu.render(&job(vec![dark])).expect_err("no direction");
-    assert!(
-        matches!(&error, RenderError::Parameter { path, .. } if path == "sun.direction"),
-        "{error}"
-    );
+    assert!(matches!(&error, RenderError::Parameter { path, .. } if path == "sun.direction"), "{error}");
 }

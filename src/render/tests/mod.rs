@@ -16,20 +16,13 @@ use crate::semantic::{Shape, Value};
 
 /// A device, or none with a note in the test's output where the machine has no adapter.
 fn gpu() -> Option<Gpu> {
-    let options = AdapterOptions {
-        backends: std::env::var("WGPU_BACKEND").ok(),
-        ..AdapterOptions::default()
-    };
+    let options = AdapterOptions { backends: std::env::var("WGPU_BACKEND").ok(), ..AdapterOptions::default() };
     match Gpu::new(&options) {
         Ok(gpu) => Some(gpu),
         Err(error @ RenderError::NoAdapter { .. }) => {
             use std::io::Write;
             // Straight to the terminal: captured output of a test that passes is not shown.
-            let _ = writeln!(
-                std::io::stderr(),
-                "SKIPPED, {error}: {}",
-                error.help().unwrap_or_default()
-            );
+            let _ = writeln!(std::io::stderr(), "SKIPPED, {error}: {}", error.help().unwrap_or_default());
             None
         }
         Err(error) => panic!("{error}"),
@@ -38,19 +31,11 @@ fn gpu() -> Option<Gpu> {
 
 /// A square from -1 to 1 in x and y, facing +z.
 fn square() -> Mesh {
-    let corners = [
-        Vec2::new(-1.0, -1.0),
-        Vec2::new(1.0, -1.0),
-        Vec2::new(1.0, 1.0),
-        Vec2::new(-1.0, 1.0),
-    ];
+    let corners = [Vec2::new(-1.0, -1.0), Vec2::new(1.0, -1.0), Vec2::new(1.0, 1.0), Vec2::new(-1.0, 1.0)];
     Mesh {
         positions: corners.iter().map(|c| c.extend(0.0)).collect(),
         normals: vec![Vec3::Z; 4],
-        texcoords: corners
-            .iter()
-            .map(|c| Vec2::new(c.x * 0.5 + 0.5, 0.5 - c.y * 0.5))
-            .collect(),
+        texcoords: corners.iter().map(|c| Vec2::new(c.x * 0.5 + 0.5, 0.5 - c.y * 0.5)).collect(),
         tangents: vec![Vec4::new(1.0, 0.0, 0.0, -1.0); 4],
         colors: vec![Vec4::ONE; 4],
         indices: vec![0, 1, 2, 0, 2, 3],
@@ -74,14 +59,7 @@ fn no_images(path: &str, _: &str) -> Result<Picture, String> {
 }
 
 fn draw<'a>(mesh: &'a Mesh, shader: &'a Compiled) -> Draw<'a> {
-    Draw {
-        mesh,
-        object_to_world: Mat4::IDENTITY,
-        casts: true,
-        receives: true,
-        shader,
-        values: BTreeMap::new(),
-    }
+    Draw { mesh, object_to_world: Mat4::IDENTITY, casts: true, receives: true, shader, values: BTreeMap::new() }
 }
 
 fn job<'a>(draws: Vec<Draw<'a>>) -> Job<'a> {
@@ -98,12 +76,7 @@ fn job<'a>(draws: Vec<Draw<'a>>) -> Job<'a> {
 }
 
 fn binding(group: u32, binding: u32, name: &str, resource: Resource) -> Binding {
-    Binding {
-        group,
-        binding,
-        name: name.into(),
-        resource,
-    }
+    Binding { group, binding, name: name.into(), resource }
 }
 
 fn parameter(path: &str, shape: Shape, offset: u32, value: &[f64]) -> Parameter {
@@ -144,22 +117,12 @@ fn fs_main(in: Varying) -> @location(0) vec4f {{
 }}
 "
     );
-    let mut all = vec![
-        binding(0, 0, "frame", Resource::Frame),
-        binding(1, 0, "object", Resource::Object),
-    ];
+    let mut all = vec![binding(0, 0, "frame", Resource::Frame), binding(1, 0, "object", Resource::Object)];
     all.extend(bindings);
     all.sort_by_key(|b| (b.group, b.binding));
-    let module = Module {
-        wgsl,
-        bindings: all,
-        attributes: vec![Attribute::Position, Attribute::Texcoord],
-        ..Module::default()
-    };
-    Compiled {
-        module,
-        plan: Plan::default(),
-    }
+    let module =
+        Module { wgsl, bindings: all, attributes: vec![Attribute::Position, Attribute::Texcoord], ..Module::default() };
+    Compiled { module, plan: Plan::default() }
 }
 
 /// A material of one colour, the parameter `paint.color`.
@@ -169,12 +132,7 @@ fn paint() -> Compiled {
         "return vec4f(parameters.color, 1.0);",
         vec![binding(2, 0, "parameters", Resource::Parameters)],
     );
-    shader.module.parameters = vec![parameter(
-        "paint.color",
-        Shape::F32(3),
-        0,
-        &[0.25, 0.5, 0.75],
-    )];
+    shader.module.parameters = vec![parameter("paint.color", Shape::F32(3), 0, &[0.25, 0.5, 0.75])];
     shader.module.parameter_bytes = 16;
     shader
 }

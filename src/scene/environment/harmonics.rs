@@ -11,33 +11,13 @@ fn constants() -> [f64; 9] {
     let linear = (3.0 / (4.0 * PI)).sqrt();
     let mixed = (15.0 / (4.0 * PI)).sqrt();
     let zonal = (5.0 / (16.0 * PI)).sqrt();
-    [
-        (1.0 / (4.0 * PI)).sqrt(),
-        linear,
-        linear,
-        linear,
-        mixed,
-        mixed,
-        zonal,
-        mixed,
-        mixed / 2.0,
-    ]
+    [(1.0 / (4.0 * PI)).sqrt(), linear, linear, linear, mixed, mixed, zonal, mixed, mixed / 2.0]
 }
 
 /// Their polynomials: 1, y, z, x, xy, yz, 3z^2-1, xz, x^2-y^2.
 fn polynomials(n: DVec3) -> [f64; 9] {
     let (x, y, z) = (n.x, n.y, n.z);
-    [
-        1.0,
-        y,
-        z,
-        x,
-        x * y,
-        y * z,
-        3.0 * z * z - 1.0,
-        x * z,
-        x * x - y * y,
-    ]
+    [1.0, y, z, x, x * y, y * z, 3.0 * z * z - 1.0, x * z, x * x - y * y]
 }
 
 /// Factor of each under convolution with the clamped cosine: pi, 2pi/3 and pi/4 for degrees 0, 1 and 2.
@@ -71,11 +51,7 @@ pub fn irradiance(level: &Level) -> [Vec4; 9] {
 /// The irradiance on a surface with the unit normal `n`.
 #[cfg(test)]
 pub(super) fn evaluate(coefficients: &[Vec4; 9], n: DVec3) -> DVec3 {
-    coefficients
-        .iter()
-        .zip(polynomials(n))
-        .map(|(c, p)| c.truncate().as_dvec3() * p)
-        .sum()
+    coefficients.iter().zip(polynomials(n)).map(|(c, p)| c.truncate().as_dvec3() * p).sum()
 }
 
 #[cfg(test)]
@@ -97,10 +73,7 @@ mod tests {
         let c = irradiance(&level);
         for n in normals() {
             let e = evaluate(&c, n);
-            assert!(
-                (e - DVec3::new(0.5, 1.0, 2.0) * PI).length() < 1e-3,
-                "{n} {e}"
-            );
+            assert!((e - DVec3::new(0.5, 1.0, 2.0) * PI).length() < 1e-3, "{n} {e}");
         }
     }
 
@@ -131,10 +104,7 @@ mod tests {
         let c = irradiance(&Level::from_fn(256, 128, sky));
         for n in normals() {
             let (got, want) = (evaluate(&c, n), hemisphere(sky, n));
-            assert!(
-                (got - want).abs().max_element() < 1e-3,
-                "{n}: {got} for {want}"
-            );
+            assert!((got - want).abs().max_element() < 1e-3, "{n}: {got} for {want}");
         }
     }
 
@@ -144,10 +114,7 @@ mod tests {
         let c = irradiance(&Level::from_fn(256, 128, |d| sky.radiance(d)));
         for n in normals() {
             let (got, want) = (evaluate(&c, n), hemisphere(|d| sky.radiance(d), n));
-            assert!(
-                (got - want).abs().max_element() < 0.08 * want.max_element().max(1.0),
-                "{n}: {got} for {want}"
-            );
+            assert!((got - want).abs().max_element() < 0.08 * want.max_element().max(1.0), "{n}: {got} for {want}");
         }
     }
 }

@@ -37,26 +37,15 @@ impl Map {
     /// environment is black.
     pub fn new(environment: &Environment, image: Option<&Image>) -> Self {
         let base = match environment {
-            Environment::Color(color) => {
-                Level::from_fn(WIDTH, WIDTH / 2, |_| DVec3::from_array(*color))
-            }
-            Environment::Sky(sky) => {
-                Level::from_fn(WIDTH, WIDTH / 2, |direction| sky.radiance(direction))
-            }
-            Environment::Image {
-                rotation,
-                intensity,
-                ..
-            } => match image {
+            Environment::Color(color) => Level::from_fn(WIDTH, WIDTH / 2, |_| DVec3::from_array(*color)),
+            Environment::Sky(sky) => Level::from_fn(WIDTH, WIDTH / 2, |direction| sky.radiance(direction)),
+            Environment::Image { rotation, intensity, .. } => match image {
                 Some(image) => image.level(WIDTH, WIDTH / 2, *rotation, *intensity),
                 None => Level::from_fn(WIDTH, WIDTH / 2, |_| DVec3::ZERO),
             },
         };
         let irradiance = harmonics::irradiance(&base);
-        Self {
-            levels: prefilter::levels(base, LEVELS),
-            irradiance,
-        }
+        Self { levels: prefilter::levels(base, LEVELS), irradiance }
     }
 }
 
@@ -70,11 +59,7 @@ impl Level {
                 pixels.push(color.extend(1.0).to_array());
             }
         }
-        Self {
-            width,
-            height,
-            pixels,
-        }
+        Self { width, height, pixels }
     }
 
     /// Unit direction and solid angle (sr) of the middle of each texel, with its radiance.
@@ -85,20 +70,13 @@ impl Level {
             let edge = |row: u32| (PI * f64::from(row) / f64::from(self.height)).cos();
             let angle = TAU / f64::from(self.width) * (edge(y) - edge(y + 1));
             let direction = direction_of(texel_center(x, y, self.width, self.height));
-            (
-                direction,
-                angle,
-                DVec3::new(p[0].into(), p[1].into(), p[2].into()),
-            )
+            (direction, angle, DVec3::new(p[0].into(), p[1].into(), p[2].into()))
         })
     }
 }
 
 fn texel_center(x: u32, y: u32, width: u32, height: u32) -> DVec2 {
-    DVec2::new(
-        (f64::from(x) + 0.5) / f64::from(width),
-        (f64::from(y) + 0.5) / f64::from(height),
-    )
+    DVec2::new((f64::from(x) + 0.5) / f64::from(width), (f64::from(y) + 0.5) / f64::from(height))
 }
 
 /// The unit direction of a place in the picture.

@@ -22,9 +22,7 @@ pub(super) fn levels(base: Level, count: u32) -> Vec<Level> {
     for (i, size) in boxes.iter().enumerate().skip(1) {
         let roughness = i as f64 / f64::from(count.max(2) - 1);
         let lobe = lobe(roughness, boxes[0].width);
-        levels.push(Level::from_fn(size.width, size.height, |normal| {
-            filter(&boxes, &lobe, normal)
-        }));
+        levels.push(Level::from_fn(size.width, size.height, |normal| filter(&boxes, &lobe, normal)));
     }
     levels
 }
@@ -50,11 +48,7 @@ fn lobe(roughness: f64, width: u32) -> Vec<Sample> {
         let d = alpha2 / (PI * (cos2 * (alpha2 - 1.0) + 1.0).powi(2));
         let angle = 4.0 / (d * f64::from(SAMPLES));
         let level = (0.5 * (angle / texel).log2() + 0.5).max(0.0) as f32;
-        (direction.z > 0.0).then_some(Sample {
-            direction,
-            weight: direction.z,
-            level,
-        })
+        (direction.z > 0.0).then_some(Sample { direction, weight: direction.z, level })
     });
     samples.collect()
 }
@@ -66,8 +60,7 @@ fn filter(boxes: &[Level], lobe: &[Sample], normal: DVec3) -> DVec3 {
     for sample in lobe {
         let d = sample.direction;
         let direction = tangent * d.x + bitangent * d.y + normal * d.z;
-        sum += trilinear(boxes, texcoord_of(direction).as_vec2(), sample.level).truncate()
-            * sample.weight as f32;
+        sum += trilinear(boxes, texcoord_of(direction).as_vec2(), sample.level).truncate() * sample.weight as f32;
         weights += sample.weight;
     }
     sum.as_dvec3() / weights.max(1e-9)
@@ -78,11 +71,7 @@ fn trilinear(levels: &[Level], at: Vec2, level: f32) -> Vec4 {
     let level = level.min(last as f32);
     let lower = level as usize;
     let a = bilinear(&levels[lower], at);
-    if lower == last {
-        a
-    } else {
-        a.lerp(bilinear(&levels[lower + 1], at), level.fract())
-    }
+    if lower == last { a } else { a.lerp(bilinear(&levels[lower + 1], at), level.fract()) }
 }
 
 /// Repeats along u and clamps along v.
@@ -96,9 +85,7 @@ fn bilinear(level: &Level, at: Vec2) -> Vec4 {
         let y = (corner.y as i32 + dy).clamp(0, height - 1);
         Vec4::from_array(level.pixels[(y * width + x) as usize])
     };
-    texel(0, 0)
-        .lerp(texel(1, 0), part.x)
-        .lerp(texel(0, 1).lerp(texel(1, 1), part.x), part.y)
+    texel(0, 0).lerp(texel(1, 0), part.x).lerp(texel(0, 1).lerp(texel(1, 1), part.x), part.y)
 }
 
 /// The base and its halves by averages of four texels, weighted by solid angle.
@@ -111,22 +98,16 @@ fn box_levels(base: Level, count: u32) -> Vec<Level> {
         let (width, height) = (last.width / 2, last.height / 2);
         let mut pixels = Vec::with_capacity((width * height) as usize);
         for y in 0..height {
-            let weight =
-                |row: u32| (PI * (f64::from(row) + 0.5) / f64::from(last.height)).sin() as f32;
+            let weight = |row: u32| (PI * (f64::from(row) + 0.5) / f64::from(last.height)).sin() as f32;
             let (upper, lower) = (weight(2 * y), weight(2 * y + 1));
             for x in 0..width {
-                let texel = |dx: u32, dy: u32| {
-                    Vec4::from_array(last.pixels[((2 * y + dy) * last.width + 2 * x + dx) as usize])
-                };
+                let texel =
+                    |dx: u32, dy: u32| Vec4::from_array(last.pixels[((2 * y + dy) * last.width + 2 * x + dx) as usize]);
                 let sum = (texel(0, 0) + texel(1, 0)) * upper + (texel(0, 1) + texel(1, 1)) * lower;
                 pixels.push((sum / (2.0 * (upper + lower))).to_array());
             }
         }
-        levels.push(Level {
-            width,
-            height,
-            pixels,
-        });
+        levels.push(Level { width, height, pixels });
     }
     levels
 }
@@ -148,38 +129,22 @@ mod tests {
         let widths: Vec<u32> = levels.iter().map(|l| l.width).collect();
         assert_eq!(widths, [64, 32, 16, 8, 4]);
         for pixel in levels.iter().flat_map(|l| &l.pixels) {
-            assert!(
-                (Vec4::from_array(*pixel) - Vec4::new(0.25, 1.0, 3.0, 1.0)).length() < 1e-4,
-                "{pixel:?}"
-            );
+            assert!((Vec4::from_array(*pixel) - Vec4::new(0.25, 1.0, 3.0, 1.0)).length() < 1e-4, "{pixel:?}");
         }
     }
 
     #[test]
     fn rougher_levels_vary_less_and_keep_where_the_light_is() {
         let sun = DVec3::new(0.3, 0.5, -0.8).normalize();
-        let base = Level::from_fn(128, 64, |d| {
-            DVec3::splat(d.dot(sun).max(0.0).powi(200) * 50.0)
-        });
+        let base = Level::from_fn(128, 64, |d| DVec3::splat(d.dot(sun).max(0.0).powi(200) * 50.0));
         let levels = levels(base, 6);
         let mut peak = f32::INFINITY;
         for level in &levels {
-            let brightest = level
-                .texels()
-                .max_by(|a, b| a.2.x.total_cmp(&b.2.x))
-                .unwrap();
-            assert!(
-                (brightest.2.x as f32) < peak,
-                "level {} is not smoother",
-                level.width
-            );
+            let brightest = level.texels().max_by(|a, b| a.2.x.total_cmp(&b.2.x)).unwrap();
+            assert!((brightest.2.x as f32) < peak, "level {} is not smoother", level.width);
             peak = brightest.2.x as f32;
             let texel = std::f64::consts::PI / f64::from(level.height);
-            assert!(
-                brightest.0.angle_between(sun) < 1.5 * texel,
-                "level {} moved",
-                level.width
-            );
+            assert!(brightest.0.angle_between(sun) < 1.5 * texel, "level {} moved", level.width);
         }
     }
 

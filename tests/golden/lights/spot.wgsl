@@ -1,0 +1,106 @@
+// Spot light
+
+struct Frame {
+    world_to_clip: mat4x4f,
+    world_to_view: mat4x4f,
+    camera_position: vec3f,
+    time: f32,
+    camera_forward: vec3f,
+    environment_levels: f32,
+    environment_irradiance: array<vec4f, 9>,
+}
+
+struct Object {
+    object_to_world: mat4x4f,
+    world_to_object: mat4x4f,
+    receives: f32,
+}
+
+struct Parameters {
+    spot_color: vec3f,
+    spot_direction: vec3f,
+    spot_inner_angle: f32,
+    spot_intensity: f32,
+    spot_near: f32,
+    spot_outer_angle: f32,
+    spot_position: vec3f,
+    spot_range: f32,
+}
+
+struct SpotLight {
+    irradiance: vec3f,
+    direction: vec3f,
+    distance: f32,
+}
+
+@group(0) @binding(0) var<uniform> frame: Frame;
+@group(1) @binding(0) var<uniform> object: Object;
+@group(2) @binding(0) var<uniform> parameters: Parameters;
+
+fn point_light_ray(point: vec3f, position: vec3f) -> vec4f {
+    let offset = position - point;
+    let distance = length(offset);
+    return vec4f(select(offset / max(distance, 1e-6), vec3f(0.0, 1.0, 0.0), distance < 1e-6), distance);
+}
+
+fn inverse_square(distance: f32) -> f32 {
+    return 1.0 / max(distance * distance, 1e-6);
+}
+
+fn cone_falloff(cosine: f32, inner_angle: f32, outer_angle: f32) -> f32 {
+    let outer = cos(outer_angle);
+    let inner = max(cos(min(inner_angle, outer_angle)), outer + 1e-4);
+    return smoothstep(outer, inner, cosine);
+}
+
+fn spot_light(
+    point: vec3f,
+    position: vec3f,
+    direction: vec3f,
+    color: vec3f,
+    intensity: f32,
+    inner_angle: f32,
+    outer_angle: f32,
+    near: f32,
+    range: f32,
+) -> SpotLight {
+    let ray = point_light_ray(point, position);
+    let axis = direction * inverseSqrt(max(dot(direction, direction), 1e-20));
+    let cone = cone_falloff(-dot(ray.xyz, axis), inner_angle, outer_angle);
+    return SpotLight(color * (intensity * cone * inverse_square(ray.w)), ray.xyz, ray.w);
+}
+
+struct Vertex {
+    @location(0) position: vec3f,
+}
+
+struct Varyings {
+    @builtin(position) clip_position: vec4f,
+    @location(0) position_world: vec3f,
+}
+
+@vertex
+fn vs_main(in: Vertex) -> Varyings {
+    let world = object.object_to_world * vec4f(in.position, 1.0);
+    var out: Varyings;
+    out.clip_position = frame.world_to_clip * world;
+    out.position_world = world.xyz;
+    return out;
+}
+
+@fragment
+fn fs_main(in: Varyings) -> @location(0) vec4f {
+    // spot: Spot light
+    let spot = spot_light(
+        in.position_world,
+        parameters.spot_position,
+        parameters.spot_direction,
+        parameters.spot_color,
+        parameters.spot_intensity,
+        parameters.spot_inner_angle,
+        parameters.spot_outer_angle,
+        parameters.spot_near,
+        parameters.spot_range,
+    );
+    return vec4f(spot.irradiance, 1.0);
+}

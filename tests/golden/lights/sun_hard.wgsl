@@ -1,0 +1,186 @@
+// Sun, hard shadow
+
+struct Frame {
+    world_to_clip: mat4x4f,
+    world_to_view: mat4x4f,
+    camera_position: vec3f,
+    time: f32,
+    camera_forward: vec3f,
+    environment_levels: f32,
+    environment_irradiance: array<vec4f, 9>,
+}
+
+struct Object {
+    object_to_world: mat4x4f,
+    world_to_object: mat4x4f,
+    receives: f32,
+}
+
+struct Parameters {
+    shadow_bias: f32,
+    sun_center: vec3f,
+    sun_color: vec3f,
+    sun_direction: vec3f,
+    sun_intensity: f32,
+    sun_radius: f32,
+}
+
+struct LightSpace {
+    /// Rigid: the light at the origin, looking along +z, +y up.
+    world_to_light: mat4x4f,
+    /// x, y: focal factors, ndc = projection.xy * light.xy / (perspective ? light.z : 1). z: 1 perspective, 0 parallel.
+    projection: vec4f,
+    /// x: near, y: far, z: 1 / (far - near).
+    depth: vec4f,
+}
+
+struct ReceiverPlane {
+    /// Map coordinate of the shaded point.
+    uv: vec2f,
+    /// Distance of the shaded point along the light's axis, metres.
+    distance: f32,
+    /// Change over the whole map: of distance in metres (parallel) or of 1 / distance relative to here (perspective).
+    slope: vec2f,
+}
+
+struct DirectionalLight {
+    irradiance: vec3f,
+    direction: vec3f,
+    distance: f32,
+}
+
+@group(0) @binding(0) var<uniform> frame: Frame;
+@group(1) @binding(0) var<uniform> object: Object;
+@group(2) @binding(0) var<uniform> parameters: Parameters;
+@group(2) @binding(1) var nearest_comparison_sampler: sampler_comparison;
+@group(3) @binding(0) var<uniform> sun_space: LightSpace;
+@group(3) @binding(1) var sun_map: texture_depth_2d;
+
+const MIN_RECEIVER_COSINE: f32 = 0.015625;
+
+fn light_position(space: LightSpace, point: vec3f) -> vec3f {
+    return (space.world_to_light * vec4f(point, 1.0)).xyz;
+}
+
+fn light_linear_depth(space: LightSpace, distance: f32) -> f32 {
+    return (distance - space.depth.x) * space.depth.z;
+}
+
+fn light_ray(space: LightSpace, position: vec3f) -> vec2f {
+    return position.xy / select(1.0, max(position.z, 1e-6), space.projection.z > 0.5);
+}
+
+fn light_map_uv(space: LightSpace, position: vec3f) -> vec2f {
+    return light_ray(space, position) * space.projection.xy * vec2f(0.5, -0.5) + 0.5;
+}
+
+fn outside_light_map(space: LightSpace, position: vec3f, uv: vec2f) -> bool {
+    return position.z < space.depth.x || any(uv < vec2f(0.0)) || any(uv > vec2f(1.0));
+}
+
+fn receiver_plane(space: LightSpace, position: vec3f, normal: vec3f) -> ReceiverPlane {
+    let perspective = space.projection.z > 0.5;
+    let n = (space.world_to_light * vec4f(normal, 0.0)).xyz;
+    // The ray through the point, scaled to one metre along the axis, so that n.ray = n.position / position.z.
+    let ray = vec3f(select(vec2f(0.0), light_ray(space, position), perspective), 1.0);
+    let facing = dot(n, ray);
+    let least = MIN_RECEIVER_COSINE * length(n) * length(ray);
+    // A normal of length zero says nothing about the plane: it counts as facing the light.
+    let bounded = max(max(abs(facing), least), 1e-30) * select(1.0, -1.0, facing < 0.0);
+    let ray_per_uv = vec2f(2.0, -2.0) / space.projection.xy;
+    return ReceiverPlane(light_map_uv(space, position), position.z, n.xy * ray_per_uv / bounded);
+}
+
+fn receiver_depth(space: LightSpace, plane: ReceiverPlane, uv: vec2f) -> f32 {
+    let change = dot(plane.slope, uv - plane.uv);
+    let parallel = plane.distance - change;
+    // Rays that run away along the plane are held within four times the distance.
+    let perspective = plane.distance / max(1.0 + change, 0.25);
+    return saturate(light_linear_depth(space, select(parallel, perspective, space.projection.z > 0.5)));
+}
+
+fn receiver_slope(space: LightSpace, plane: ReceiverPlane) -> vec2f {
+    return abs(plane.slope) * select(1.0, plane.distance, space.projection.z > 0.5) * space.depth.z;
+}
+
+fn receiver_rounding(slope_per_texel: vec2f) -> f32 {
+    return (slope_per_texel.x + slope_per_texel.y) * (1.0 / 64.0) + 1e-6;
+}
+
+fn geometric_normal(point: vec3f) -> vec3f {
+    return cross(dpdx(point), dpdy(point));
+}
+
+fn directional_light(
+    point: vec3f,
+    direction: vec3f,
+    color: vec3f,
+    intensity: f32,
+    center: vec3f,
+    radius: f32,
+) -> DirectionalLight {
+    // A direction of length zero counts as straight down.
+    let square = dot(direction, direction);
+    let axis = select(direction * inverseSqrt(max(square, 1e-20)), vec3f(0.0, -1.0, 0.0), square < 1e-20);
+    return DirectionalLight(color * intensity, -axis, max(dot(point - center, axis) + radius, 0.0));
+}
+
+fn hard_shadow(
+    point: vec3f,
+    space: LightSpace,
+    map: texture_depth_2d,
+    map_sampler: sampler_comparison,
+    bias: f32,
+    receives: f32,
+) -> f32 {
+    let normal = geometric_normal(point);
+    let position = light_position(space, point);
+    let plane = receiver_plane(space, position, normal);
+    let size = vec2f(textureDimensions(map));
+    let margin = bias * space.depth.z + receiver_rounding(receiver_slope(space, plane) / size);
+    let center = (floor(plane.uv * size) + 0.5) / size;
+    let depth = receiver_depth(space, plane, center) - margin;
+    let visibility = textureSampleCompareLevel(map, map_sampler, center, depth);
+    return select(visibility, 1.0, receives < 0.5 || outside_light_map(space, position, plane.uv));
+}
+
+struct Vertex {
+    @location(0) position: vec3f,
+}
+
+struct Varyings {
+    @builtin(position) clip_position: vec4f,
+    @location(0) position_world: vec3f,
+}
+
+@vertex
+fn vs_main(in: Vertex) -> Varyings {
+    let world = object.object_to_world * vec4f(in.position, 1.0);
+    var out: Varyings;
+    out.clip_position = frame.world_to_clip * world;
+    out.position_world = world.xyz;
+    return out;
+}
+
+@fragment
+fn fs_main(in: Varyings) -> @location(0) vec4f {
+    // sun: Directional light
+    let sun = directional_light(
+        in.position_world,
+        parameters.sun_direction,
+        parameters.sun_color,
+        parameters.sun_intensity,
+        parameters.sun_center,
+        parameters.sun_radius,
+    );
+    // shadow: Hard shadow
+    let shadow_visibility = hard_shadow(
+        in.position_world,
+        sun_space,
+        sun_map,
+        nearest_comparison_sampler,
+        parameters.shadow_bias,
+        object.receives,
+    );
+    return vec4f(sun.irradiance * shadow_visibility, 1.0);
+}

@@ -1,0 +1,276 @@
+// Spot light, two shadows
+
+struct Frame {
+    world_to_clip: mat4x4f,
+    world_to_view: mat4x4f,
+    camera_position: vec3f,
+    time: f32,
+    camera_forward: vec3f,
+    environment_levels: f32,
+    environment_irradiance: array<vec4f, 9>,
+}
+
+struct Object {
+    object_to_world: mat4x4f,
+    world_to_object: mat4x4f,
+    receives: f32,
+}
+
+struct Parameters {
+    pcf_bias: f32,
+    spot_color: vec3f,
+    spot_direction: vec3f,
+    spot_inner_angle: f32,
+    spot_intensity: f32,
+    spot_near: f32,
+    spot_outer_angle: f32,
+    spot_position: vec3f,
+    spot_range: f32,
+    vsm_bleeding_reduction: f32,
+    vsm_minimum_variance: f32,
+}
+
+struct LightSpace {
+    /// Rigid: the light at the origin, looking along +z, +y up.
+    world_to_light: mat4x4f,
+    /// x, y: focal factors, ndc = projection.xy * light.xy / (perspective ? light.z : 1). z: 1 perspective, 0 parallel.
+    projection: vec4f,
+    /// x: near, y: far, z: 1 / (far - near).
+    depth: vec4f,
+}
+
+struct ReceiverPlane {
+    /// Map coordinate of the shaded point.
+    uv: vec2f,
+    /// Distance of the shaded point along the light's axis, metres.
+    distance: f32,
+    /// Change over the whole map: of distance in metres (parallel) or of 1 / distance relative to here (perspective).
+    slope: vec2f,
+}
+
+struct SpotLight {
+    irradiance: vec3f,
+    direction: vec3f,
+    distance: f32,
+}
+
+@group(0) @binding(0) var<uniform> frame: Frame;
+@group(1) @binding(0) var<uniform> object: Object;
+@group(2) @binding(0) var<uniform> parameters: Parameters;
+@group(2) @binding(1) var nearest_comparison_sampler: sampler_comparison;
+@group(2) @binding(2) var trilinear_clamp_anisotropic16_sampler: sampler;
+@group(3) @binding(0) var<uniform> spot_space: LightSpace;
+@group(3) @binding(1) var spot_map: texture_depth_2d;
+@group(3) @binding(2) var spot_map_2: texture_2d<f32>;
+
+fn point_light_ray(point: vec3f, position: vec3f) -> vec4f {
+    let offset = position - point;
+    let distance = length(offset);
+    return vec4f(select(offset / max(distance, 1e-6), vec3f(0.0, 1.0, 0.0), distance < 1e-6), distance);
+}
+
+fn inverse_square(distance: f32) -> f32 {
+    return 1.0 / max(distance * distance, 1e-6);
+}
+
+fn cone_falloff(cosine: f32, inner_angle: f32, outer_angle: f32) -> f32 {
+    let outer = cos(outer_angle);
+    let inner = max(cos(min(inner_angle, outer_angle)), outer + 1e-4);
+    return smoothstep(outer, inner, cosine);
+}
+
+const MIN_RECEIVER_COSINE: f32 = 0.015625;
+
+fn light_position(space: LightSpace, point: vec3f) -> vec3f {
+    return (space.world_to_light * vec4f(point, 1.0)).xyz;
+}
+
+fn light_linear_depth(space: LightSpace, distance: f32) -> f32 {
+    return (distance - space.depth.x) * space.depth.z;
+}
+
+fn light_ray(space: LightSpace, position: vec3f) -> vec2f {
+    return position.xy / select(1.0, max(position.z, 1e-6), space.projection.z > 0.5);
+}
+
+fn light_map_uv(space: LightSpace, position: vec3f) -> vec2f {
+    return light_ray(space, position) * space.projection.xy * vec2f(0.5, -0.5) + 0.5;
+}
+
+fn outside_light_map(space: LightSpace, position: vec3f, uv: vec2f) -> bool {
+    return position.z < space.depth.x || any(uv < vec2f(0.0)) || any(uv > vec2f(1.0));
+}
+
+fn receiver_plane(space: LightSpace, position: vec3f, normal: vec3f) -> ReceiverPlane {
+    let perspective = space.projection.z > 0.5;
+    let n = (space.world_to_light * vec4f(normal, 0.0)).xyz;
+    // The ray through the point, scaled to one metre along the axis, so that n.ray = n.position / position.z.
+    let ray = vec3f(select(vec2f(0.0), light_ray(space, position), perspective), 1.0);
+    let facing = dot(n, ray);
+    let least = MIN_RECEIVER_COSINE * length(n) * length(ray);
+    // A normal of length zero says nothing about the plane: it counts as facing the light.
+    let bounded = max(max(abs(facing), least), 1e-30) * select(1.0, -1.0, facing < 0.0);
+    let ray_per_uv = vec2f(2.0, -2.0) / space.projection.xy;
+    return ReceiverPlane(light_map_uv(space, position), position.z, n.xy * ray_per_uv / bounded);
+}
+
+fn receiver_depth(space: LightSpace, plane: ReceiverPlane, uv: vec2f) -> f32 {
+    let change = dot(plane.slope, uv - plane.uv);
+    let parallel = plane.distance - change;
+    // Rays that run away along the plane are held within four times the distance.
+    let perspective = plane.distance / max(1.0 + change, 0.25);
+    return saturate(light_linear_depth(space, select(parallel, perspective, space.projection.z > 0.5)));
+}
+
+fn receiver_slope(space: LightSpace, plane: ReceiverPlane) -> vec2f {
+    return abs(plane.slope) * select(1.0, plane.distance, space.projection.z > 0.5) * space.depth.z;
+}
+
+fn receiver_rounding(slope_per_texel: vec2f) -> f32 {
+    return (slope_per_texel.x + slope_per_texel.y) * (1.0 / 64.0) + 1e-6;
+}
+
+fn geometric_normal(point: vec3f) -> vec3f {
+    return cross(dpdx(point), dpdy(point));
+}
+
+fn kernel_gaussian(offset: i32, width: i32) -> f32 {
+    let x = 4.0 * f32(offset) / f32(width);
+    return select(0.0, exp(-0.5 * x * x), 2 * abs(offset) < width);
+}
+
+fn spot_light(
+    point: vec3f,
+    position: vec3f,
+    direction: vec3f,
+    color: vec3f,
+    intensity: f32,
+    inner_angle: f32,
+    outer_angle: f32,
+    near: f32,
+    range: f32,
+) -> SpotLight {
+    let ray = point_light_ray(point, position);
+    let axis = direction * inverseSqrt(max(dot(direction, direction), 1e-20));
+    let cone = cone_falloff(-dot(ray.xyz, axis), inner_angle, outer_angle);
+    return SpotLight(color * (intensity * cone * inverse_square(ray.w)), ray.xyz, ray.w);
+}
+
+const WIDTH: i32 = 5;
+
+fn pcf_shadow(
+    point: vec3f,
+    space: LightSpace,
+    map: texture_depth_2d,
+    map_sampler: sampler_comparison,
+    bias: f32,
+    receives: f32,
+) -> f32 {
+    let normal = geometric_normal(point);
+    let position = light_position(space, point);
+    let plane = receiver_plane(space, position, normal);
+    let size = vec2f(textureDimensions(map));
+    let slope = receiver_slope(space, plane) / size;
+    let margin = bias * space.depth.z + receiver_rounding(slope);
+    // Bilinear taps on a grid share their texels: each texel is compared once, with the kernel convolved with the tent.
+    let corner = plane.uv * size - 0.5;
+    let part = fract(corner);
+    let first = floor(corner) + 0.5 - f32(WIDTH / 2);
+    let last_offset = WIDTH / 2 + 1;
+    var sum = 0.0;
+    var total = 0.0;
+    var before_y = 0.0;
+    for (var y = -(WIDTH / 2); y <= last_offset; y++) {
+        let kernel_y = kernel_gaussian(y, WIDTH);
+        let weight_y = mix(kernel_y, before_y, part.y);
+        before_y = kernel_y;
+        var before_x = 0.0;
+        for (var x = -(WIDTH / 2); x <= last_offset; x++) {
+            let kernel_x = kernel_gaussian(x, WIDTH);
+            let weight = mix(kernel_x, before_x, part.x) * weight_y;
+            before_x = kernel_x;
+            let uv = (first + vec2f(f32(x + WIDTH / 2), f32(y + WIDTH / 2))) / size;
+            let depth = receiver_depth(space, plane, uv) - margin;
+            sum += weight * textureSampleCompareLevel(map, map_sampler, uv, depth);
+            total += weight;
+        }
+    }
+    let visibility = sum / total;
+    return select(visibility, 1.0, receives < 0.5 || outside_light_map(space, position, plane.uv));
+}
+
+fn variance_shadow(
+    point: vec3f,
+    space: LightSpace,
+    map: texture_2d<f32>,
+    map_sampler: sampler,
+    minimum_variance: f32,
+    bleeding_reduction: f32,
+    receives: f32,
+) -> f32 {
+    let position = light_position(space, point);
+    let uv = light_map_uv(space, position);
+    let moments = textureSampleGrad(map, map_sampler, uv, dpdx(uv), dpdy(uv)).xy;
+    let depth = saturate(light_linear_depth(space, position.z));
+    // 1e-12 keeps 0 / 0 out where both the variance and the difference vanish.
+    let variance = max(moments.y - moments.x * moments.x, max(minimum_variance, 1e-12));
+    let behind = max(depth - moments.x, 0.0);
+    let bound = variance / (variance + behind * behind);
+    let least = clamp(bleeding_reduction, 0.0, 0.99);
+    let visibility = saturate((bound - least) / (1.0 - least));
+    return select(visibility, 1.0, receives < 0.5 || outside_light_map(space, position, uv));
+}
+
+struct Vertex {
+    @location(0) position: vec3f,
+}
+
+struct Varyings {
+    @builtin(position) clip_position: vec4f,
+    @location(0) position_world: vec3f,
+}
+
+@vertex
+fn vs_main(in: Vertex) -> Varyings {
+    let world = object.object_to_world * vec4f(in.position, 1.0);
+    var out: Varyings;
+    out.clip_position = frame.world_to_clip * world;
+    out.position_world = world.xyz;
+    return out;
+}
+
+@fragment
+fn fs_main(in: Varyings) -> @location(0) vec4f {
+    // spot: Spot light
+    let spot = spot_light(
+        in.position_world,
+        parameters.spot_position,
+        parameters.spot_direction,
+        parameters.spot_color,
+        parameters.spot_intensity,
+        parameters.spot_inner_angle,
+        parameters.spot_outer_angle,
+        parameters.spot_near,
+        parameters.spot_range,
+    );
+    // pcf: PCF shadow
+    let pcf_visibility = pcf_shadow(
+        in.position_world,
+        spot_space,
+        spot_map,
+        nearest_comparison_sampler,
+        parameters.pcf_bias,
+        object.receives,
+    );
+    // vsm: Variance shadow
+    let vsm_visibility = variance_shadow(
+        in.position_world,
+        spot_space,
+        spot_map_2,
+        trilinear_clamp_anisotropic16_sampler,
+        parameters.vsm_minimum_variance,
+        parameters.vsm_bleeding_reduction,
+        object.receives,
+    );
+    return vec4f(spot.irradiance * pcf_visibility * vsm_visibility, 1.0);
+}

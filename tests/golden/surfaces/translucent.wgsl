@@ -1,0 +1,78 @@
+// Paper
+
+struct Frame {
+    world_to_clip: mat4x4f,
+    world_to_view: mat4x4f,
+    camera_position: vec3f,
+    time: f32,
+    camera_forward: vec3f,
+    environment_levels: f32,
+    environment_irradiance: array<vec4f, 9>,
+}
+
+struct Object {
+    object_to_world: mat4x4f,
+    world_to_object: mat4x4f,
+    receives: f32,
+}
+
+struct Parameters {
+    paper_albedo: vec3f,
+    paper_transmission: f32,
+}
+
+@group(0) @binding(0) var<uniform> frame: Frame;
+@group(1) @binding(0) var<uniform> object: Object;
+@group(2) @binding(0) var<uniform> parameters: Parameters;
+
+const MATTE_RADIANCE: f32 = 0.31830987;
+
+fn environment_irradiance(harmonics: array<vec4f, 9>, normal: vec3f) -> vec3f {
+    let n = normal;
+    let first = harmonics[0] + n.y * harmonics[1] + n.z * harmonics[2] + n.x * harmonics[3];
+    let second = n.x * n.y * harmonics[4] + n.y * n.z * harmonics[5] + (3.0 * n.z * n.z - 1.0) * harmonics[6]
+        + n.x * n.z * harmonics[7] + (n.x * n.x - n.y * n.y) * harmonics[8];
+    return max((first + second).rgb, vec3f(0.0));
+}
+
+fn translucent_ambient(
+    normal: vec3f,
+    albedo: vec3f,
+    transmission: f32,
+    irradiance_harmonics: array<vec4f, 9>,
+) -> vec3f {
+    let near_side = environment_irradiance(irradiance_harmonics, normal);
+    let far_side = environment_irradiance(irradiance_harmonics, -normal);
+    return albedo * mix(near_side, far_side, saturate(transmission)) * MATTE_RADIANCE;
+}
+
+struct Vertex {
+    @location(0) position: vec3f,
+    @location(1) normal: vec3f,
+}
+
+struct Varyings {
+    @builtin(position) clip_position: vec4f,
+    @location(0) normal_world: vec3f,
+}
+
+@vertex
+fn vs_main(in: Vertex) -> Varyings {
+    let world = object.object_to_world * vec4f(in.position, 1.0);
+    var out: Varyings;
+    out.clip_position = frame.world_to_clip * world;
+    out.normal_world = normalize((vec4f(in.normal, 0.0) * object.world_to_object).xyz);
+    return out;
+}
+
+@fragment
+fn fs_main(in: Varyings) -> @location(0) vec4f {
+    // paper: Translucent
+    let paper_ambient_radiance = translucent_ambient(
+        normalize(in.normal_world),
+        parameters.paper_albedo,
+        parameters.paper_transmission,
+        frame.environment_irradiance,
+    );
+    return vec4f(paper_ambient_radiance, 1.0);
+}

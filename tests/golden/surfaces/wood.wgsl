@@ -1,0 +1,304 @@
+// Wood
+
+struct Frame {
+    world_to_clip: mat4x4f,
+    world_to_view: mat4x4f,
+    camera_position: vec3f,
+    time: f32,
+    camera_forward: vec3f,
+    environment_levels: f32,
+    environment_irradiance: array<vec4f, 9>,
+}
+
+struct Object {
+    object_to_world: mat4x4f,
+    world_to_object: mat4x4f,
+    receives: f32,
+}
+
+struct Parameters {
+    rings_axis: vec3f,
+    rings_center: vec3f,
+    rings_distortion: f32,
+    rings_early_color: vec3f,
+    rings_fibers: f32,
+    rings_late_color: vec3f,
+    rings_scale: f32,
+    shine_from_high: f32,
+    shine_from_low: f32,
+    shine_to_high: f32,
+    shine_to_low: f32,
+    wood_ior: f32,
+    wood_metallic: f32,
+}
+
+struct WoodPoint {
+    color: vec3f,
+    ring: f32,
+}
+
+@group(0) @binding(0) var<uniform> frame: Frame;
+@group(0) @binding(1) var environment: texture_2d<f32>;
+@group(0) @binding(2) var environment_sampler: sampler;
+@group(1) @binding(0) var<uniform> object: Object;
+@group(2) @binding(0) var<uniform> parameters: Parameters;
+
+fn pixel_width1(x: f32) -> f32 {
+    return length(vec2f(dpdx(x), dpdy(x)));
+}
+
+fn pixel_width3(x: vec3f) -> vec3f {
+    let across = dpdx(x);
+    let down = dpdy(x);
+    return sqrt(across * across + down * down);
+}
+
+fn filter_span(width: f32) -> f32 {
+    return clamp(width, 1e-3, 1e4);
+}
+
+fn pulse_integral(x: f32, duty: f32) -> f32 {
+    let whole = floor(x);
+    return whole * duty + min(x - whole, duty);
+}
+
+fn filtered_pulse(x: f32, duty: f32, width: f32) -> f32 {
+    let span = filter_span(width);
+    let near_zero = x - floor(x);
+    let half_span = 0.5 * span;
+    let area = pulse_integral(near_zero + half_span, duty) - pulse_integral(near_zero - half_span, duty);
+    return clamp(area / span, 0.0, 1.0);
+}
+
+fn saw_integral(x: f32) -> f32 {
+    let whole = floor(x);
+    let rest = x - whole;
+    return 0.5 * (whole + rest * rest);
+}
+
+fn filtered_saw(x: f32, width: f32) -> f32 {
+    let span = filter_span(width);
+    let near_zero = x - floor(x);
+    let half_span = 0.5 * span;
+    return clamp((saw_integral(near_zero + half_span) - saw_integral(near_zero - half_span)) / span, 0.0, 1.0);
+}
+
+fn detail_left(width: f32) -> f32 {
+    return clamp(2.0 - 4.0 * width, 0.0, 1.0);
+}
+
+fn octave_footprint3(p: vec3f) -> f32 {
+    let width = pixel_width3(p);
+    return max(width.x, max(width.y, width.z));
+}
+
+fn pcg3d(seed: vec3u) -> vec3u {
+    var v = seed * 1664525u + 1013904223u;
+    v.x += v.y * v.z;
+    v.y += v.z * v.x;
+    v.z += v.x * v.y;
+    v ^= v >> vec3u(16u);
+    v.x += v.y * v.z;
+    v.y += v.z * v.x;
+    v.z += v.x * v.y;
+    return v;
+}
+
+fn hash_cell3(corner: vec3f) -> vec3u {
+    return pcg3d(bitcast<vec3u>(vec3i(corner)));
+}
+
+fn lattice_gradient3(hash: u32, offset: vec3f) -> f32 {
+    let choice = hash % 12u;
+    let first = select(offset.x, offset.y, choice >= 8u);
+    let second = select(offset.z, offset.y, choice < 4u);
+    return select(first, -first, (choice & 1u) != 0u) + select(second, -second, (choice & 2u) != 0u);
+}
+
+fn quintic_fade3(t: vec3f) -> vec3f {
+    return t * t * t * (t * (t * 6.0 - 15.0) + 10.0);
+}
+
+fn perlin_corner3(cell: vec3f, f: vec3f, corner: vec3f) -> f32 {
+    return lattice_gradient3(hash_cell3(cell + corner).x, f - corner);
+}
+
+fn perlin_noise3(p: vec3f) -> f32 {
+    let cell = floor(p);
+    let f = p - cell;
+    let w = quintic_fade3(f);
+    let x00 = mix(perlin_corner3(cell, f, vec3f(0.0)), perlin_corner3(cell, f, vec3f(1.0, 0.0, 0.0)), w.x);
+    let x10 = mix(perlin_corner3(cell, f, vec3f(0.0, 1.0, 0.0)), perlin_corner3(cell, f, vec3f(1.0, 1.0, 0.0)), w.x);
+    let x01 = mix(perlin_corner3(cell, f, vec3f(0.0, 0.0, 1.0)), perlin_corner3(cell, f, vec3f(1.0, 0.0, 1.0)), w.x);
+    let x11 = mix(perlin_corner3(cell, f, vec3f(0.0, 1.0, 1.0)), perlin_corner3(cell, f, vec3f(1.0, 1.0, 1.0)), w.x);
+    return mix(mix(x00, x10, w.y), mix(x01, x11, w.y), w.z) * 0.9649214;
+}
+
+const MATTE_RADIANCE: f32 = 0.31830987;
+
+fn normal_reflectance(ior: f32) -> f32 {
+    let ratio = (ior - 1.0) / (max(ior, 0.0) + 1.0);
+    return ratio * ratio;
+}
+
+fn environment_brdf(roughness: f32, n_dot_v: f32) -> vec2f {
+    let r = saturate(roughness);
+    let m = saturate(n_dot_v);
+    let powers = vec3f(1.0, m, m * m);
+    let loss = vec3f(
+        dot(powers, vec3f(0.1843, 0.8889, -2.4358)),
+        dot(powers, vec3f(-0.5612, 0.5383, 4.5730)),
+        dot(powers, vec3f(0.4168, -0.3580, -2.1897)),
+    );
+    let lost = r * r * dot(loss, vec3f(1.0, r, r * r)) / (m + 0.5 * r * r + 0.02);
+    let grazing = 1.0 - m;
+    let fifth = grazing * grazing * grazing * grazing * grazing;
+    let at_grazing = fifth * saturate(1.0288 + 0.5008 * m + r * (2.8817 * m - 0.9173)) / (1.0 + 8.0 * r * r);
+    let share = saturate(1.0 - lost);
+    return vec2f(max(share - at_grazing, 0.0), min(at_grazing, share));
+}
+
+fn environment_uv(direction: vec3f) -> vec2f {
+    // atan2 of two zeros is undefined: straight up and down count as forward.
+    let pole = abs(direction.x) + abs(direction.z) < 1e-7;
+    let turn = atan2(select(direction.x, 0.0, pole), select(-direction.z, 1.0, pole));
+    return vec2f(0.5 + turn * 0.15915494, acos(clamp(direction.y, -1.0, 1.0)) * 0.31830987);
+}
+
+fn environment_radiance(
+    environment: texture_2d<f32>,
+    environment_sampler: sampler,
+    last_level: f32,
+    direction: vec3f,
+    roughness: f32,
+) -> vec3f {
+    let level = saturate(roughness) * last_level;
+    return max(textureSampleLevel(environment, environment_sampler, environment_uv(direction), level).rgb, vec3f(0.0));
+}
+
+fn environment_irradiance(harmonics: array<vec4f, 9>, normal: vec3f) -> vec3f {
+    let n = normal;
+    let first = harmonics[0] + n.y * harmonics[1] + n.z * harmonics[2] + n.x * harmonics[3];
+    let second = n.x * n.y * harmonics[4] + n.y * n.z * harmonics[5] + (3.0 * n.z * n.z - 1.0) * harmonics[6]
+        + n.x * n.z * harmonics[7] + (n.x * n.x - n.y * n.y) * harmonics[8];
+    return max((first + second).rgb, vec3f(0.0));
+}
+
+fn wood_rings(
+    position: vec3f,
+    center: vec3f,
+    axis: vec3f,
+    scale: f32,
+    distortion: f32,
+    fibers: f32,
+    early_color: vec3f,
+    late_color: vec3f,
+) -> WoodPoint {
+    let trunk = axis / max(length(axis), 1e-6);
+    let offset = position - center;
+    let along = dot(offset, trunk);
+    let outward = offset - along * trunk;
+    // Trunks change slowly along their axis, so the noise is stretched along it.
+    let stretched = outward + 0.2 * along * trunk;
+    let wobble = perlin_noise3(stretched * 2.0) + 0.5 * perlin_noise3(stretched * 5.0 + 19.0);
+    let radius = length(outward) * scale + distortion * wobble;
+    let width = pixel_width1(radius);
+    // A slow rise over most of the period and a quick fall at its end.
+    let rise = filtered_saw(radius, width);
+    let end = filtered_pulse(radius + 0.12, 0.12, width);
+    let ring = clamp(rise * rise * (1.0 - end), 0.0, 1.0);
+    let fiber_point = (outward + 0.03 * along * trunk) * scale * 12.0;
+    let fiber = perlin_noise3(fiber_point) * detail_left(octave_footprint3(fiber_point));
+    let shade = clamp(ring + fibers * fiber, 0.0, 1.0);
+    return WoodPoint(mix(early_color, late_color, shade), ring);
+}
+
+fn remap_f32(x: f32, from_low: f32, from_high: f32, to_low: f32, to_high: f32) -> f32 {
+    let span = from_high - from_low;
+    let none = span == f32(0.0);
+    let share = select((x - from_low) / select(span, f32(1.0), none), f32(0.0), none);
+    let t = clamp(share, f32(0.0), f32(1.0));
+    return to_low + (to_high - to_low) * t;
+}
+
+fn ggx_ambient(
+    normal: vec3f,
+    to_camera: vec3f,
+    base_color: vec3f,
+    metallic: f32,
+    roughness: f32,
+    ior: f32,
+    irradiance_harmonics: array<vec4f, 9>,
+    environment: texture_2d<f32>,
+    environment_sampler: sampler,
+    environment_levels: f32,
+) -> vec3f {
+    let n_dot_v = saturate(dot(normal, to_camera));
+    let at_normal = mix(vec3f(normal_reflectance(ior)), base_color, metallic);
+    let response = environment_brdf(roughness, n_dot_v);
+    let mirrored = at_normal * response.x + response.y;
+    let direction = reflect(-to_camera, normal);
+    let sharp = environment_radiance(environment, environment_sampler, environment_levels, direction, roughness);
+    let matte = environment_irradiance(irradiance_harmonics, normal) * MATTE_RADIANCE;
+    return base_color * (1.0 - metallic) * (1.0 - mirrored) * matte + mirrored * sharp;
+}
+
+struct Vertex {
+    @location(0) position: vec3f,
+    @location(1) normal: vec3f,
+}
+
+struct Varyings {
+    @builtin(position) clip_position: vec4f,
+    @location(0) position_world: vec3f,
+    @location(1) position_object: vec3f,
+    @location(2) normal_world: vec3f,
+}
+
+@vertex
+fn vs_main(in: Vertex) -> Varyings {
+    let world = object.object_to_world * vec4f(in.position, 1.0);
+    var out: Varyings;
+    out.clip_position = frame.world_to_clip * world;
+    out.position_world = world.xyz;
+    out.position_object = in.position;
+    out.normal_world = normalize((vec4f(in.normal, 0.0) * object.world_to_object).xyz);
+    return out;
+}
+
+@fragment
+fn fs_main(in: Varyings) -> @location(0) vec4f {
+    // rings: Wood Rings
+    let rings = wood_rings(
+        in.position_object,
+        parameters.rings_center,
+        parameters.rings_axis,
+        parameters.rings_scale,
+        parameters.rings_distortion,
+        parameters.rings_fibers,
+        parameters.rings_early_color,
+        parameters.rings_late_color,
+    );
+    // shine: Remap
+    let shine_remapped = remap_f32(
+        rings.ring,
+        parameters.shine_from_low,
+        parameters.shine_from_high,
+        parameters.shine_to_low,
+        parameters.shine_to_high,
+    );
+    // wood: Metallic-roughness
+    let wood_ambient_radiance = ggx_ambient(
+        normalize(in.normal_world),
+        normalize(frame.camera_position - in.position_world),
+        rings.color,
+        parameters.wood_metallic,
+        shine_remapped,
+        parameters.wood_ior,
+        frame.environment_irradiance,
+        environment,
+        environment_sampler,
+        frame.environment_levels,
+    );
+    return vec4f(wood_ambient_radiance, 1.0);
+}
