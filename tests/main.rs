@@ -1,4 +1,5 @@
 //! All tests that use the package from outside, in one binary.
+#![allow(unreachable_pub, reason = "modules of one test binary see each other")]
 
 mod graphs;
 mod layers;
