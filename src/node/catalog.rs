@@ -212,8 +212,12 @@ impl Catalog {
             let all = header.synonyms.iter().chain([&header.label]);
             names.extend(all.map(|n| (n.to_lowercase(), kind)));
         }
-        let near = did_you_mean(&spoken, names.iter().map(|(n, _)| n.as_str()))?;
-        names.iter().find(|(n, _)| n == near).map(|(_, kind)| (*kind).to_owned())
+        if let Some(near) = did_you_mean(&spoken, names.iter().map(|(n, _)| n.as_str())) {
+            return names.iter().find(|(n, _)| n == near).map(|(_, kind)| (*kind).to_owned());
+        }
+        // One word of a name, as `noise` is of `white_noise`.
+        let word = |kind: &str| kind.split('_').any(|w| folded.len() > 3 && did_you_mean(&folded, [w]).is_some());
+        self.kinds().find(|kind| word(kind)).map(str::to_owned)
     }
 
     fn headers(&self) -> impl Iterator<Item = (&str, Arc<Header>)> {

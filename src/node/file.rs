@@ -124,7 +124,8 @@ pub(crate) fn resolve(
     let mut found = Vec::new();
     for (name, choice) in choices {
         let Some(option) = options.iter().find(|o| o.name == *name) else {
-            let mut error = Diagnostic::error("ST0133", format!("there is no option `{name}`"), place.clone().port(name));
+            let mut error =
+                Diagnostic::error("ST0133", format!("there is no option `{name}`"), place.clone().port(name));
             error.help = match did_you_mean(name, options.iter().map(|o| o.name.as_str())) {
                 Some(near) => Some(format!("did you mean `{near}`?")),
                 None if options.is_empty() => Some("it has no options".into()),
@@ -162,9 +163,11 @@ pub(crate) fn apply(report: &mut Report, options: &[OptionSpec], choices: &[(Str
     }
     let (mut declarations, mistakes) = items::split(&kept.text);
     for (range, message) in mistakes {
-        report
-            .error("ST0124", kept.original_range(range), message)
-            .help("a file holds fn, struct, const, alias, override and var declarations");
+        let unknown = message.contains("does not begin");
+        let entry = report.error("ST0124", kept.original_range(range), message);
+        if unknown {
+            entry.help("a file holds `fn`, `struct`, `const` and `alias` declarations");
+        }
     }
     let mut edits = Vec::new();
     for (name, choice) in choices {
@@ -216,7 +219,8 @@ pub(crate) fn define(
     let reader = Reader { kept, declarations, header, strict };
     let function = |name: &str| declarations.iter().find(|d| d.keyword == "fn" && d.name == name);
     let main = function(kind);
-    if main.is_none() {
+    // A text that cannot be split may well hold the function.
+    if main.is_none() && !report.found.iter().any(|d| d.code == "ST0124") {
         report
             .error("ST0121", 0..0, format!("the file has no function `{kind}`"))
             .help("the function that the node stands for is named like the file");

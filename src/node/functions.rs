@@ -207,7 +207,12 @@ impl Reader<'_> {
             Some((Default::Value(value), place)) => {
                 if !value.fits(shape) {
                     let message = format!("`{value}` does not fit a `{}`", shape.wgsl());
-                    report.error("ST0114", place.clone(), message).port(&line.name);
+                    let help = match shape.width() {
+                        Some(1) => "write one number".to_owned(),
+                        Some(n) => format!("write one number, or {n} in brackets"),
+                        None => "write a value of that type, or none".to_owned(),
+                    };
+                    report.error("ST0114", place.clone(), message).help(help).port(&line.name);
                 }
                 if let Value::Numbers(numbers) = value
                     && numbers

@@ -129,7 +129,8 @@ fn read_meaning(report: &mut Report, piece: Piece<'_>) -> Meaning {
         let words = words.chain(Quantity::ALL.iter().map(|k| k.word()));
         let words = words.chain(Encoding::ALL.iter().map(|k| k.word())).filter(|w| !w.is_empty());
         let near = did_you_mean(unknown, words);
-        report.error("ST0113", piece.range(), message).suggest(near);
+        let at = piece.words().into_iter().find(|word| word.text == unknown).map_or(piece.range(), Piece::range);
+        report.error("ST0113", at, message).suggest(near);
         Meaning::of(Kind::Number)
     })
 }
@@ -265,7 +266,7 @@ mod tests {
             ("what it does", "ST0112 what it does: "),
             ("a b (scalar): X.", "ST0112 a b: "),
             ("a (scalr): X.", "ST0113 scalr: "),
-            ("a (scalar wrold): X.", "ST0113 scalar wrold: "),
+            ("a (scalar wrold): X.", "ST0113 wrold: "),
             ("a (scalar)", "ST0112 : "),
             ("a (scalar; = @tme): X.", "ST0115 @tme: "),
             ("a (scalar; = 1, 2): X.", "ST0114 1, 2: "),

@@ -75,7 +75,13 @@ pub fn read(source: &Arc<SourceText>) -> (Option<Document>, Vec<Diagnostic>) {
 }
 
 fn diagnose(source: &Arc<SourceText>, mistake: Mistake) -> Diagnostic {
-    Diagnostic::error(mistake.code, mistake.message, Place::span(Span::new(source, mistake.at)))
+    let error = Diagnostic::error(mistake.code, mistake.message, Place::span(Span::new(source, mistake.at)));
+    match mistake.code {
+        "ST0003" => error.help("write a backslash as `\\\\`, or a raw string: `r\"C:\\path\"`"),
+        "ST0006" => error.help("remove one of them"),
+        "ST0007" => error.help("remove what follows, or a closing bracket too many before it"),
+        _ => error,
+    }
 }
 
 impl Reader<'_> {
@@ -161,6 +167,7 @@ impl Reader<'_> {
 
     fn tree(&mut self) -> Result<Tree, Mistake> {
         match self.peek() {
+            None if self.text.trim().is_empty() => return Err(self.mistake("ST0001", "the file is empty")),
             None => return Err(self.mistake("ST0001", "the file ends where a value must stand")),
             Some('"') => return self.string(),
             Some('\'') => return self.character(),

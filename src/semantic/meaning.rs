@@ -295,6 +295,10 @@ impl Type {
 
 impl fmt::Display for Type {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{} ({})", self.meaning, self.shape.wgsl())
+        let (meaning, shape) = (self.meaning.to_string(), self.shape.wgsl());
+        if self.shape == Shape::Generic {
+            return write!(f, "{meaning} of any width");
+        }
+        if meaning == shape { f.write_str(&shape) } else { write!(f, "{meaning} ({shape})") }
     }
 }

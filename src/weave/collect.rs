@@ -8,7 +8,7 @@ use petgraph::graph::{DiGraph, NodeIndex};
 
 use super::{Found, Link};
 use crate::compile::NamedGraph;
-use crate::diagnostic::{Diagnostic, Place, SourceText, Span, did_you_mean};
+use crate::diagnostic::{Diagnostic, SourceText, Span, did_you_mean};
 use crate::graph::{self, Setting};
 use crate::node::{self, Catalog, Definition, Port};
 use crate::semantic::{Shape, Value};
@@ -228,8 +228,8 @@ fn values(
 ) -> BTreeMap<String, Value> {
     let mut values = BTreeMap::new();
     let prefix = format!("{name}.");
-    let overrides =
-        named.set.iter().filter_map(|(path, v)| Some((path.strip_prefix(&prefix)?, v, named.graph.place(name))));
+    let overrides = named.set.iter().filter_map(|(path, v)| Some((path.strip_prefix(&prefix)?, v)));
+    let overrides = overrides.map(|(port, v)| (port, v, named.graph.param_place(name, port)));
     let given = node.params.iter().map(|(port, v)| (port.as_str(), v, named.graph.param_place(name, port)));
     for (port, value, place) in given.chain(overrides) {
         let Some(input) = definition.input(port).filter(|p| !p.hidden) else {
