@@ -14,6 +14,7 @@ use shadetree::compile::{NamedGraph, Options, Output, compile, locate};
 use shadetree::diagnostic::{Diagnostic, Place, SourceText, has_errors};
 use shadetree::graph::{self, Graph};
 use shadetree::node::{Catalog, PassFile};
+use shadetree::semantic::Value;
 use shadetree::{explain, report, scene};
 
 use crate::support::{catalog, expect_file, files, no_strays, root};
@@ -48,7 +49,8 @@ fn source(path: &Path) -> Arc<SourceText> {
 fn load(path: &str, from: &str) -> Result<(String, Arc<Graph>), Vec<Diagnostic>> {
     let full = root().join(FOLDER).join(from).parent().expect("a folder").join(path);
     let Ok(full) = full.canonicalize() else {
-        return Err(vec![Diagnostic::error("ST0501", format!("cannot read `{path}`"), Place::file(path))]);
+        let error = Diagnostic::error("ST0501", format!("cannot read `{path}`"), Place::file(path));
+        return Err(vec![error.help("check the path")]);
     };
     let (graph, found) = graph::read(&source(&full));
     let name = source(&full).name.clone();
@@ -153,6 +155,11 @@ fn made() -> Vec<(&'static str, Vec<Diagnostic>)> {
     }
     let cycle = [NamedGraph { name: "made".into(), graph: cycle, set: BTreeMap::new() }];
 
+    let flat = graph::read(&graph("\"flat\": (kind: \"unlit\"),")).0.expect("a graph");
+    let values = [("flt.color", 1.0), ("flat.colour", 1.0), ("flat.color", -1.0), ("flat", 1.0)];
+    let set = values.map(|(path, x)| (path.to_owned(), Value::Numbers(vec![x]))).into();
+    let set = [NamedGraph { name: "made".into(), graph: flat, set }];
+
     let sphere = "(shape: Sphere(radius: 1), surface: \"matte.ron\")";
     let camera = "camera: (position: (0, 0, 5), target: (0, 0, 0), fov: 40)";
     let objects = many(20_001, sphere);
@@ -161,6 +168,7 @@ fn made() -> Vec<(&'static str, Vec<Diagnostic>)> {
         ("nodes", read(&graph(&many(20_001, "(kind: \"value\")")))),
         ("not_a_scene", scene("Stage(version: 1)\n".into())),
         ("objects", scene(format!("Scene(version: 1, {camera}, objects: {{\n{objects}}})\n"))),
+        ("set", compile(&set, catalog(), &Options::default()).1),
         ("parameters", graphs(&[SourceText::new("made.ron", chain)], catalog())),
         ("values", read(&SourceText::new("made.ron", format!("Graph(nodes: [\n{}])\n", "0,\n".repeat(1_000_001))))),
     ]
@@ -196,6 +204,22 @@ fn every_mistake_is_told_as_expected() {
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));
     let known: Vec<String> = all.into_iter().map(|(name, _)| name).collect();
     no_strays(FOLDER, "txt", &known);
+}
+
+/// A remedy stands with each mistake, but for what naga says in its own words.
+#[test]
+fn every_mistake_comes_with_a_remedy() {
+    let mut without = Vec::new();
+    for file in files(FOLDER, "txt") {
+        let text = std::fs::read_to_string(root().join(&file)).expect("readable");
+        let starts = text.match_indices("[ST").map(|(at, _)| at).chain([text.len()]).collect::<Vec<_>>();
+        for block in starts.windows(2).map(|w| &text[w[0]..w[1]]) {
+            if !block.contains("= help: ") && !block.starts_with("[ST0126]") && !block.starts_with("[ST0127]") {
+                without.push(format!("{}: {}", file.display(), block.lines().next().unwrap_or_default()));
+            }
+        }
+    }
+    assert!(without.is_empty(), "no remedy:\n{}", without.join("\n"));
 }
 
 #[test]

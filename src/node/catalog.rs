@@ -46,7 +46,9 @@ impl LibraryFile {
             let applied = file::apply(&mut report, &[], &[]);
             for d in applied.declarations.iter().filter(|d| d.entry || matches!(d.keyword, "var" | "override")) {
                 let place = applied.kept.original_range(d.name_range.clone());
-                report.error("ST0125", place, format!("`{}` cannot stand in a library", d.name));
+                report
+                    .error("ST0125", place, format!("`{}` cannot stand in a library", d.name))
+                    .help("a library holds functions, structs, constants and aliases");
             }
             found.extend(report.found);
             let items = file::items_of(&applied);
@@ -111,7 +113,7 @@ impl Catalog {
         let source = SourceText::new(name, text);
         if let Some((range, message)) = super::check::guard(text, 1 << 20) {
             let mut report = Report::new(&source);
-            report.error("ST0130", range, message);
+            report.error("ST0130", range, message).help("split it into shorter functions and statements");
             return report.found;
         }
         let mut trial = self.clone();

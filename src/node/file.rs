@@ -159,15 +159,19 @@ pub(crate) fn apply(report: &mut Report, options: &[OptionSpec], choices: &[(Str
         Some((&choice.1, &option.choices))
     });
     for error in errors {
-        report.error("ST0110", error.range, error.message);
+        report
+            .error("ST0110", error.range, error.message)
+            .help("conditions read `//#if OPTION == a | b`, `//#elif OPTION != c`, `//#else`, `//#end`");
     }
     let (mut declarations, mistakes) = items::split(&kept.text);
     for (range, message) in mistakes {
         let unknown = message.contains("does not begin");
         let entry = report.error("ST0124", kept.original_range(range), message);
-        if unknown {
-            entry.help("a file holds `fn`, `struct`, `const` and `alias` declarations");
-        }
+        entry.help(if unknown {
+            "a file holds `fn`, `struct`, `const` and `alias` declarations"
+        } else {
+            "close it; perhaps the end of the text was lost"
+        });
     }
     let mut edits = Vec::new();
     for (name, choice) in choices {
@@ -301,7 +305,9 @@ fn generic(report: &mut Report, header: &Header, applied: &Applied) {
             let ty = initializer(&kept.text, alias).map(|r| kept.text[r].to_owned()).unwrap_or_default();
             if crate::semantic::Shape::from_wgsl(&ty) != *first {
                 let place = kept.original_range(alias.name_range.clone());
-                report.error("ST0122", place, format!("`T` is `{ty}`, the header's first width is `{}`", first.wgsl()));
+                report
+                    .error("ST0122", place, format!("`T` is `{ty}`, the header's first width is `{}`", first.wgsl()))
+                    .help(format!("write `alias T = {};`", first.wgsl()));
             }
         }
     }

@@ -23,7 +23,10 @@ impl Report {
             self.found.push(diagnostic);
         } else if self.found.len() == MAX_REPORTED {
             let place = Place::file(self.source.name.clone());
-            self.found.push(Diagnostic::error("ST0415", "there are more mistakes than are listed here", place));
+            self.found.push(
+                Diagnostic::error("ST0415", "there are more mistakes than are listed here", place)
+                    .help("correct these first"),
+            );
         }
     }
 
