@@ -73,6 +73,7 @@ pub(crate) fn collect(graphs: &[NamedGraph], catalog: &Catalog, out: &mut Vec<Di
                 values,
                 base: source.map(|s| s.name.clone()).unwrap_or_default(),
                 place: named.graph.place(name),
+                broken_link: false,
             });
         }
         for (from, to, place) in bypass(&named.graph) {
@@ -83,6 +84,8 @@ pub(crate) fn collect(graphs: &[NamedGraph], catalog: &Catalog, out: &mut Vec<Di
             let link = Link { from: f, from_port: from.port, to: t, to_port: to.port, place };
             if check_ports(&collected.nodes, &link, out) {
                 collected.links.push(link);
+            } else {
+                collected.nodes[t].broken_link = true;
             }
         }
     }

@@ -147,6 +147,8 @@ pub(crate) struct Found {
     pub(crate) values: BTreeMap<String, Value>,
     pub(crate) base: String,
     pub(crate) place: Place,
+    /// Whether a link into it is broken: what it would have fed is not missing as well.
+    pub(crate) broken_link: bool,
 }
 
 /// Resolves the wiring of `graphs` together. The result is there only if no error was found.

@@ -65,7 +65,7 @@ impl Work<'_> {
         let incoming: Vec<&Link> =
             self.collected.incoming[self.index].iter().map(|&l| &self.collected.links[l]).collect();
         // A neighbour with mistakes of its own has said so; what it would have fed is not reported as missing.
-        let blind = incoming.iter().any(|l| self.done[l.from].is_none());
+        let blind = self.found.broken_link || incoming.iter().any(|l| self.done[l.from].is_none());
         self.pinned(&incoming, &mut inputs, out);
         self.under_lights(&mut inputs);
         let fed_by_light = |link: &&Link| self.lights.iter().any(|(l, s)| *l == link.from || s.contains(&link.from));
