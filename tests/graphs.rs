@@ -5,6 +5,7 @@ use shadetree::diagnostic::SourceText;
 use shadetree::graph;
 
 use crate::support::{compiled, expect_file, files, graph_file, graph_text, no_strays, text};
+use crate::tint;
 
 fn examples() -> Vec<std::path::PathBuf> {
     let mut all = files("graphs/lights", "ron");
@@ -39,6 +40,10 @@ fn examples_give_the_expected_wgsl() {
     expect_file(name, compiled(&pair, &Options::default()).module.wgsl.as_bytes());
     known.push(name.to_owned());
     no_strays("tests/golden", "wgsl", &known);
+    let texts: Vec<(String, String)> = known.iter().map(|n| (n.clone(), text(n.as_ref()).text.clone())).collect();
+    if let Some(complaints) = tint::complaints(texts.iter().map(|(n, t)| (n.as_str(), t.as_str()))) {
+        assert!(complaints.is_empty(), "{}", complaints.join("\n"));
+    }
 }
 
 /// Compiling again, and from a file whose lines are in another order, gives the same bytes.

@@ -159,6 +159,17 @@ mod tests {
     }
 
     #[test]
+    fn the_built_in_files_are_in_order() {
+        use crate::diagnostic::SourceText;
+        let (scene, found) = crate::scene::read(&SourceText::new("stage.ron", include_str!("stage.ron")));
+        assert!(scene.is_some() && found.is_empty(), "{found:?}");
+        let starter = include_str!("starter.ron");
+        let (graph, found) = crate::graph::read(&SourceText::new("starter.ron", starter));
+        assert_eq!(found, []);
+        assert_eq!(graph.map(|g| crate::graph::write(&g)).as_deref(), Some(starter));
+    }
+
+    #[test]
     fn exit_codes_are_the_documented_ones() {
         let run = |line: &str| dispatch(line.split(' ').map(OsString::from).collect());
         assert_eq!(run("shadetree --no-such-flag"), Exit::Usage);
