@@ -43,11 +43,24 @@ fn pcf_shadow(
     let plane = receiver_plane(space, position, normal);
     let size = vec2f(textureDimensions(map));
     let slope = receiver_slope(space, plane) / size;
+//#if width == 1
+//#if taps == nearest
+    let curvature = receiver_curvature(space, plane, size, 0.5);
+//#else
+    let curvature = receiver_curvature(space, plane, size, 1.0);
+//#end
+//#else
+//#if taps == nearest
+    let curvature = receiver_curvature(space, plane, size, 0.5 * f32(WIDTH));
+//#else
+    let curvature = receiver_curvature(space, plane, size, 0.5 * f32(WIDTH) + 0.5);
+//#end
+//#end
 //#if taps == hardware
     // The sampler compares one depth with four texels, whose centres lie up to a texel to each side.
-    let margin = bias * space.depth.z + receiver_rounding(slope) + slope.x + slope.y;
+    let margin = bias * space.depth.z + receiver_rounding(slope) + curvature + slope.x + slope.y;
 //#else
-    let margin = bias * space.depth.z + receiver_rounding(slope);
+    let margin = bias * space.depth.z + receiver_rounding(slope) + curvature;
 //#end
 //#if width == 1
 //#if taps == bilinear
