@@ -34,6 +34,16 @@ pub(crate) fn open(backends: Option<String>) -> Option<Gpu> {
     }
 }
 
+/// Whether an adapter renders a format.
+pub(crate) fn renders(gpu: &Gpu, format: &str) -> bool {
+    gpu.adapter().formats.iter().any(|(name, able)| name == format && able.renderable)
+}
+
+/// What the picture keeps of a value near 1: single precision, or half where the adapter cannot render more.
+pub(crate) fn grain(gpu: &Gpu) -> f64 {
+    if renders(gpu, "rgba32float") { 1e-6 } else { 1.0 / 1024.0 }
+}
+
 /// Says on the terminal that a test did not run: the captured output of a test that passes is not shown.
 pub(crate) fn skipped(why: &str) {
     use std::io::Write;

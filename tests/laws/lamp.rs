@@ -3,6 +3,7 @@
 use glam::{DMat4, DVec3};
 use shadetree::compile::Compiled;
 use shadetree::reference::{Layer, Layers};
+use shadetree::render::Gpu;
 
 use crate::stage::{Item, Stage, View, light, visibility};
 
@@ -12,6 +13,11 @@ pub(super) const SIDE: f64 = 256.0;
 pub(super) const STEP: f64 = 1.0 / 255.0;
 /// What float32 may differ from float64 by: positions are known to some 1e-7 of the scene, which is 1e-4 texel.
 pub(super) const CLOSED_FORM: f64 = 5e-4;
+
+/// What a filtering sampler may differ from float64 by: devices may round its weights to 1/256; Vulkan's lavapipe does not.
+pub(super) fn sampled(gpu: &Gpu) -> f64 {
+    if gpu.adapter().software && gpu.adapter().backend == "vulkan" { CLOSED_FORM } else { STEP }
+}
 
 /// A light straight above the ground with its map of 256 texels, and how the ground lies on it.
 #[derive(Clone, Copy, Debug, PartialEq)]

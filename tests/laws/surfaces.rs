@@ -4,7 +4,7 @@ use glam::{DMat4, DVec3};
 use shadetree::compile::Compiled;
 use shadetree::scene::Shape;
 
-use crate::stage::{Item, Stage, View, gpu, light, visibility};
+use crate::stage::{Item, Stage, View, gpu, grain, light, renders, visibility};
 
 const SUN: (&str, &str) = ("directional_light", "\"direction\": (0, -1, 0), \"radius\": 1");
 const SPOT: (&str, &str) = (
@@ -41,12 +41,13 @@ fn darkest_slope(gpu: &mut shadetree::render::Gpu, shader: &Compiled) -> (f64, S
 #[test]
 fn comparisons_do_not_darken_lit_slopes() {
     let Some(mut gpu) = gpu() else { return };
-    let mut failed = Vec::new();
+    let (mut failed, lit) = (Vec::new(), 1.0 - grain(&gpu));
     for (kind, lamp) in [SUN, SPOT] {
         let mut check = |shadow: &str, options: &str| {
             let shader = visibility(&light(kind, lamp, shadow, "", options));
             let (least, what) = darkest_slope(&mut gpu, &shader);
-            if least < 1.0 {
+            // Weights that are summed twice may differ in the last bit.
+            if least < lit {
                 failed.push(format!("{kind} {shadow} {options}: {what}"));
             }
         };
@@ -62,18 +63,36 @@ fn comparisons_do_not_darken_lit_slopes() {
     assert!(failed.is_empty(), "{}", failed.join("\n"));
 }
 
+/// Without anisotropic sampling the mean over a plane is the plane, so that lit slopes are lit. Devices choose their own
+/// anisotropic kernel, and that of lavapipe is not centred: by a fraction of a texel, which the variance of a blurred map
+/// hides but for 0.03 (of an unblurred one but for 0.21).
 #[test]
 fn variance_hardly_darkens_lit_slopes() {
     let Some(mut gpu) = gpu() else { return };
-    let mut failed = Vec::new();
+    let (mut failed, lit) = (Vec::new(), 1.0 - grain(&gpu));
+    // 16 bits add their rounding to what the kernel does.
+    let anisotropic = if renders(&gpu, "rg32float") { 0.97 } else { 0.94 };
     for (kind, lamp) in [SUN, SPOT] {
-        for options in ["", "\"size\": \"256\", \"width\": \"1\"", "\"size\": \"256\", \"width\": \"11\""] {
+        let mut check = |options: &str, bar: f64| {
             let shader = visibility(&light(kind, lamp, "variance_shadow", "", options));
             let (least, what) = darkest_slope(&mut gpu, &shader);
-            if least < 1.0 - 1.0 / 255.0 {
+            if least < bar {
                 failed.push(format!("{kind} {options}: {what}"));
             }
+        };
+        for slope in ["on", "off"] {
+            for width in [1, 5, 11] {
+                check(
+                    &format!(
+                        "\"size\": \"256\", \"width\": \"{width}\", \"anisotropy\": \"1\", \"slope_variance\": \"{slope}\""
+                    ),
+                    lit,
+                );
+            }
         }
+        check("\"anisotropy\": \"1\"", lit);
+        check("\"anisotropy\": \"1\", \"mips\": \"off\", \"filter\": \"linear\"", lit);
+        check("", anisotropic);
     }
     assert!(failed.is_empty(), "{}", failed.join("\n"));
 }
@@ -94,7 +113,7 @@ fn no_light_leaks_in_at_a_contact() {
         target: DVec3::new(0.8, 0.0, 0.0),
         up: DVec3::Y,
         half_height: 0.15,
-        size: (96, 96),
+        size: (192, 192),
     };
     let stage = Stage::new(vec![Item::plane([8.0, 8.0], DMat4::IDENTITY), cube], view);
     for (kind, lamp) in [sun, spot] {
@@ -102,7 +121,7 @@ fn no_light_leaks_in_at_a_contact() {
             let values = stage.look(&mut gpu, &visibility(&light(kind, lamp, shadow, "", "")));
             let behind = |p: DVec3| p.x > 0.5005 && p.x < 1.3 && p.z.abs() < 0.35;
             let umbra: Vec<(DVec3, f64)> = stage.on_ground(&values).filter(|(p, _)| behind(*p)).collect();
-            assert!(umbra.len() > 500 && umbra.iter().any(|(p, _)| p.x < 0.51), "{} pixels", umbra.len());
+            assert!(umbra.len() > 500 && umbra.iter().any(|(p, _)| p.x < 0.52), "{} pixels", umbra.len());
             let (at, most) = umbra.iter().copied().max_by(|a, b| a.1.total_cmp(&b.1)).expect("some");
             assert!(most < 1.0 / 255.0, "{kind} {shadow}: {most} at {at}");
         }
@@ -141,7 +160,8 @@ fn what_a_map_does_not_cover_is_lit() {
             assert!(off < 1e-4, "{shadow}, near {near}, range {range}: {off}");
             let mut open = roofed();
             open.items.pop();
-            assert!(open.look(&mut gpu, &shader).iter().all(|v| *v == 1.0), "{shadow}, near {near}, range {range}");
+            let lit = 1.0 - grain(&gpu);
+            assert!(open.look(&mut gpu, &shader).iter().all(|v| *v >= lit), "{shadow}, near {near}, range {range}");
         }
     }
 }
@@ -152,14 +172,15 @@ fn objects_that_neither_cast_nor_receive_do_not() {
     for (kind, lamp) in [SUN, SPOT] {
         for shadow in SHADOWS {
             let shader = visibility(&light(kind, lamp, shadow, "", ""));
-            let mut stage = roofed();
+            let (mut stage, lit) = (roofed(), 1.0 - grain(&gpu));
             let middle = |values: Vec<f64>| values[32 * 64 + 32];
             assert!(middle(stage.look(&mut gpu, &shader)) < 1e-3, "{kind} {shadow}");
             stage.items[0].receives = false;
             assert!(stage.look(&mut gpu, &shader).iter().all(|v| *v == 1.0), "{kind} {shadow}: receives");
             stage.items[0].receives = true;
             stage.items[1].casts = false;
-            assert!(stage.look(&mut gpu, &shader).iter().all(|v| *v == 1.0), "{kind} {shadow}: casts");
+            // The mean of many equal depths may differ from them in the last bit.
+            assert!(stage.look(&mut gpu, &shader).iter().all(|v| *v >= lit), "{kind} {shadow}: casts");
         }
     }
 }

@@ -3,8 +3,8 @@
 use shadetree::compile::Compiled;
 use shadetree::reference::{Mix, Taps, Weights, kernel, reduce_bleeding, spread_cured_by, worst_bleeding};
 
-use super::lamp::{CLOSED_FORM, Lamp, PLAIN, Plate, layers, under, vsm};
-use crate::stage::gpu;
+use super::lamp::{Lamp, PLAIN, Plate, layers, sampled, under, vsm};
+use crate::stage::{gpu, renders};
 
 /// A plate at 1 m, and one below it that reaches farther to the right by `between` texels.
 fn stack(lower: f64, between: f64) -> [Plate; 2] {
@@ -34,7 +34,7 @@ fn bleeding_follows_the_affine_law() {
                 for (point, bound) in stage.on_ground(&values) {
                     let mix = truth.mix(&kernel, Taps::Bilinear, lamp.at(point));
                     let off = (bound - mix.bound()).abs();
-                    assert!(off < CLOSED_FORM, "{lamp:?} {name} {lower} at {point}: {bound}, {}", mix.bound());
+                    assert!(off < sampled(&gpu), "{lamp:?} {name} {lower} at {point}: {bound}, {}", mix.bound());
                     most = most.max(mix.bound() - mix.lit());
                 }
                 assert!(most > 0.005, "light bleeds: {most}");
@@ -60,10 +60,10 @@ fn the_right_amount_cures_bleeding_exactly_and_builds_no_pipeline() {
         for (pixel, mix) in mixes.iter().enumerate().filter(|(_, m)| m.cure() > 0.01) {
             stage.set(&path(&shader, "bleeding_reduction"), &[mix.cure()]);
             let values = stage.look(&mut gpu, &shader);
-            assert!((values[pixel] - mix.lit()).abs() < CLOSED_FORM, "{lamp:?} {pixel}: {} {mix:?}", values[pixel]);
+            assert!((values[pixel] - mix.lit()).abs() < sampled(&gpu), "{lamp:?} {pixel}: {} {mix:?}", values[pixel]);
             // The same amount elsewhere: the remap of the bound, whatever the bound.
             for (value, bound) in values.iter().zip(&bounds) {
-                assert!((value - reduce_bleeding(*bound, mix.cure())).abs() < CLOSED_FORM);
+                assert!((value - reduce_bleeding(*bound, mix.cure())).abs() < sampled(&gpu));
             }
             cured += 1;
         }
@@ -84,11 +84,11 @@ fn bleeding_in_full_shadow_has_the_worst_case_of_its_spread() {
             let mut stage = under(lamp, &stack(lower, 40.0), 16.0, (480, 2));
             let most = stage.look(&mut gpu, &shader).into_iter().fold(0.0, f64::max);
             let worst = worst_bleeding(spread);
-            assert!((most - worst).abs() < CLOSED_FORM, "{lamp:?} {lower}: {most} is not {worst}");
+            assert!((most - worst).abs() < sampled(&gpu), "{lamp:?} {lower}: {most} is not {worst}");
             assert!((spread_cured_by(worst) - spread).abs() < 1e-9);
             stage.set(&path(&shader, "bleeding_reduction"), &[worst]);
             let left = stage.look(&mut gpu, &shader).into_iter().fold(0.0, f64::max);
-            assert!(left < CLOSED_FORM, "{lamp:?} {lower}: {left} is left");
+            assert!(left < sampled(&gpu), "{lamp:?} {lower}: {left} is left");
         }
     }
 }
@@ -99,6 +99,8 @@ fn minimum_variance_leaks_by_its_law() {
     let Some(mut gpu) = gpu() else { return };
     for lamp in Lamp::BOTH {
         let shader = vsm(lamp, "gaussian", 5, PLAIN);
+        // Where the map has 16 bits, rounding adds to the variance.
+        let noise = if renders(&gpu, "rg32float") { 0.0 } else { 3.0 * 3.0 / 131_072.0 };
         for height in [1.0, 0.3, 0.1] {
             let plates = [Plate { height, edge: 60.0, angle: 0.0 }];
             let mut stage = under(lamp, &plates, 4.0, (16, 2));
@@ -110,12 +112,10 @@ fn minimum_variance_leaks_by_its_law() {
             let gap = lamp.depth(0.0) - lamp.depth(height);
             for least in [1e-6, 1e-4, 1e-2] {
                 stage.set(&path(&shader, "minimum_variance"), &[least]);
-                let expected = least / (least + gap * gap);
+                let leak = |variance: f64| variance / (variance + gap * gap);
                 for value in stage.look(&mut gpu, &shader) {
-                    assert!(
-                        (value - expected).abs() < 2e-3 * expected.max(1e-3),
-                        "{height} {least}: {value} {expected}"
-                    );
+                    let (low, high) = (leak(least) * 0.998 - 2e-6, leak(least + noise) * 1.002 + 2e-6);
+                    assert!((low..=high).contains(&value), "{height} {least}: {value} {low} {high}");
                 }
             }
         }
