@@ -8,7 +8,7 @@ use petgraph::graph::{DiGraph, NodeIndex};
 
 use super::{Found, Link};
 use crate::compile::NamedGraph;
-use crate::diagnostic::{Diagnostic, Place, SourceText, Span, did_you_mean};
+use crate::diagnostic::{Diagnostic, SourceText, Span, did_you_mean};
 use crate::graph::{self, Setting};
 use crate::node::{self, Catalog, Definition, Port};
 use crate::semantic::{Shape, Value};
