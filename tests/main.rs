@@ -3,7 +3,11 @@
 
 mod errors;
 mod graphs;
+#[cfg(feature = "render")]
+mod laws;
 mod layers;
 mod matrix;
+#[cfg(feature = "render")]
+mod stage;
 mod support;
 mod tint;

@@ -42,8 +42,8 @@ impl Entry<'_> {
         let words: Vec<&str> = words.into_iter().collect();
         match did_you_mean(wanted, words.iter().copied()) {
             Some(near) => self.help(format!("did you mean `{near}`?")),
-            None if words.is_empty() => self.help("there are none"),
-            None => self.help(format!("there are {}", words.join(", "))),
+            None if words.is_empty() => self.help("there are none here"),
+            None => self.help(format!("possible here: {}", words.join(", "))),
         }
     }
 

@@ -296,9 +296,11 @@ impl Type {
 impl fmt::Display for Type {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let (meaning, shape) = (self.meaning.to_string(), self.shape.wgsl());
-        if self.shape == Shape::Generic {
-            return write!(f, "{meaning} of any width");
+        match self.shape {
+            Shape::Generic => write!(f, "{meaning} (any width)"),
+            // `bool (bool)` says it twice.
+            _ if meaning == shape => f.write_str(&shape),
+            _ => write!(f, "{meaning} ({shape})"),
         }
-        if meaning == shape { f.write_str(&shape) } else { write!(f, "{meaning} ({shape})") }
     }
 }

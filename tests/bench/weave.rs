@@ -22,8 +22,7 @@ fn text(count: usize) -> String {
     for i in 1..count.saturating_sub(3) {
         let kind = ["multiply", "add", "sine", "smooth_step", "maximum"][i % 5];
         let _ = writeln!(nodes, "\"n{i}\": (kind: \"{kind}\"),");
-        let port = if kind == "sine" { ".angle" } else { "" };
-        let _ = writeln!(links, "\"n{} -> n{i}{port}\",", i - 1);
+        let _ = writeln!(links, "\"n{} -> n{i}\",", i - 1);
     }
     let _ = writeln!(links, "\"n{} -> body.albedo\",", count.saturating_sub(4));
     format!("Graph(version: 1, nodes: {{\n{nodes}}}, links: [\n{links}])")
