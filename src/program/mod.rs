@@ -14,7 +14,7 @@ use std::sync::Arc;
 
 use crate::module::{Address, SamplerSettings};
 use crate::node::{Definition, Function};
-use crate::semantic::{Shape, Value};
+use crate::semantic::{Conversions, Shape, Value};
 
 pub use build::build;
 
@@ -193,6 +193,8 @@ pub struct Program {
     known: HashMap<(Op, Vec<Id>), Id>,
     function_index: HashMap<String, usize>,
     parameter_index: HashMap<(usize, String), usize>,
+    inline_texts: HashMap<usize, Rc<str>>,
+    conversions: Conversions,
     bake: bool,
 }
 
