@@ -68,6 +68,24 @@ pub fn compile(graphs: &[NamedGraph], catalog: &Catalog, options: &Options) -> (
     if has_errors(&diagnostics) { (None, diagnostics) } else { (Some(Compiled { module, plan }), diagnostics) }
 }
 
+/// Adds the file and line of the node that a diagnostic names, where it has no place of its own: what
+/// [`crate::verify`] reports is known by node alone.
+pub fn locate(mut diagnostic: Diagnostic, graphs: &[NamedGraph]) -> Diagnostic {
+    let Some(full) = diagnostic.place.node.clone().filter(|_| diagnostic.place.span.is_none()) else {
+        return diagnostic;
+    };
+    for named in graphs {
+        let node = full.strip_prefix(&format!("{}/", named.name)).unwrap_or(&full);
+        if named.graph.nodes.contains_key(node) {
+            let Place { span, file, .. } = named.graph.place(node);
+            diagnostic.place.span = span;
+            diagnostic.place.file = file;
+            break;
+        }
+    }
+    diagnostic
+}
+
 /// The largest uniform block that every WebGPU device takes, in bytes (limit `maxUniformBufferBindingSize`).
 const MAX_PARAMETER_BYTES: u32 = 64 << 10;
 

@@ -4,6 +4,7 @@ use std::path::PathBuf;
 
 use clap::Args;
 
+use super::assets;
 use super::context::Context;
 use super::exit::{Exit, Outcome};
 use super::load::Loader;
@@ -38,11 +39,14 @@ impl Check {
     fn once(&self, context: &Context, loader: &Loader) -> Outcome {
         let (catalog, found) = loader.catalog(&self.nodes)?;
         // Here the person asks about everything, so a broken node file counts.
-        let broken = context.report(&found);
-        let weaver = Weaver { context, loader, catalog: &catalog, options: Options::default(), set: &[] };
+        let mut broken = context.report(&found);
+        let weaver = Weaver { context, loader, catalog: &catalog, options: Options::default(), set: &[], assets: true };
         let shaders = match weaver.read(&self.files)? {
             Input::Graphs(graphs) => vec![weaver.weave_graphs(graphs)?],
-            Input::Scene(scene, file) => weaver.weave_scene(&scene, &file)?,
+            Input::Scene(scene, file) => {
+                broken |= context.report(&assets::of_scene(loader, &scene, &file));
+                weaver.weave_scene(&scene, &file)?
+            }
         };
         if context.is_json() {
             let summary = serde_json::json!({ "schema": 1, "ok": !broken, "shaders": shaders.len() });

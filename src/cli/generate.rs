@@ -108,7 +108,7 @@ impl Generate {
         context.report(&found);
         let options = Options { bake: self.bake, ..Options::default() };
         let set = overrides(&self.set, &self.option);
-        let weaver = Weaver { context, loader, catalog: &catalog, options, set: &set };
+        let weaver = Weaver { context, loader, catalog: &catalog, options, set: &set, assets: false };
         let shaders = match weaver.read(&self.files)? {
             Input::Graphs(graphs) => vec![weaver.weave_graphs(graphs)?],
             Input::Scene(scene, file) => weaver.weave_scene(&scene, &file)?,

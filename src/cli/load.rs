@@ -9,7 +9,7 @@ use std::sync::Arc;
 use super::exit::{Exit, Failure};
 use super::output::is_dash;
 use crate::compile::NamedGraph;
-use crate::diagnostic::{Diagnostic, Place, SourceText, has_errors};
+use crate::diagnostic::{Diagnostic, Place, SourceText, Span, has_errors};
 use crate::graph::{self, Graph};
 use crate::node::Catalog;
 use crate::ron::MAX_BYTES;
@@ -47,6 +47,11 @@ impl Loader {
         std::mem::take(&mut self.found.borrow_mut())
     }
 
+    /// Adds one more.
+    pub(super) fn add(&self, diagnostic: Diagnostic) {
+        self.found.borrow_mut().push(diagnostic);
+    }
+
     fn keep<T>(&self, (value, found): (Option<T>, Vec<Diagnostic>)) -> Option<T> {
         let failed = has_errors(&found);
         self.found.borrow_mut().extend(found);
@@ -60,7 +65,8 @@ impl Loader {
             Failure::new(exit, Diagnostic::error(code, message, Place::file(&*name)).help(help))
         };
         let unreadable = |e: std::io::Error| {
-            fail("ST0501", Exit::Io, format!("cannot read: {e}"), "check the path and its permissions")
+            let message = format!("cannot read {name}: {e}");
+            fail("ST0501", Exit::Io, message, "check the path and its permissions")
         };
         let too_large = || {
             let message = format!("the file is larger than {} MiB", MAX_BYTES >> 20);
@@ -75,7 +81,8 @@ impl Loader {
             self.touched.borrow_mut().insert(path.to_path_buf());
             let meta = std::fs::metadata(path).map_err(unreadable)?;
             if meta.is_dir() {
-                return Err(fail("ST0502", Exit::Io, "this is a folder, not a file".into(), "name the files in it"));
+                let message = format!("{name} is a folder, not a file");
+                return Err(fail("ST0502", Exit::Io, message, "name the files in it"));
             }
             if meta.len() > MAX_BYTES as u64 {
                 return Err(too_large());
@@ -131,21 +138,27 @@ impl Loader {
     }
 
     /// Reads and flattens a graph file under a name. None if it has errors, which are kept.
-    pub(super) fn named_graph(&self, path: &Path, name: &str) -> Option<NamedGraph> {
+    /// `mentioned` is where a scene names the file.
+    pub(super) fn named_graph(&self, path: &Path, name: &str, mentioned: Option<&Span>) -> Option<NamedGraph> {
+        let here = |mut diagnostic: Diagnostic| {
+            if let (None, Some(span)) = (&diagnostic.place.span, mentioned) {
+                diagnostic.place = Place::span(span.clone());
+            }
+            diagnostic
+        };
         let read = self.document(path);
         let graph = match read {
             Ok(Some(Document::Graph(graph))) => graph,
             Ok(Some(Document::Scene(_))) => {
                 let place = Place::file(path.display().to_string());
-                let message = "this is a scene, but a graph is needed here";
-                self.found
-                    .borrow_mut()
-                    .push(Diagnostic::error("ST0507", message, place).help("name a `Graph(...)` file"));
+                let message = format!("{} is a scene, but a graph is needed here", path.display());
+                let error = Diagnostic::error("ST0507", message, place).help("name a `Graph(...)` file");
+                self.found.borrow_mut().push(here(error));
                 return None;
             }
             Ok(None) => return None,
             Err(failure) => {
-                self.found.borrow_mut().extend(failure.diagnostics);
+                self.found.borrow_mut().extend(failure.diagnostics.into_iter().map(here));
                 return None;
             }
         };

@@ -25,7 +25,7 @@ pub(super) fn once(command: &Render, context: &Context, loader: &Loader, gpu: &m
         options.output = output.clone();
     }
     let set = overrides(&command.set, &command.option);
-    let weaver = Weaver { context, loader, catalog: &catalog, options, set: &set };
+    let weaver = Weaver { context, loader, catalog: &catalog, options, set: &set, assets: false };
     let (scene, file, shaders) = shaders(command, &weaver)?;
     let meshes = meshes(&scene, &file, loader)?;
     let surroundings = surroundings(&scene.environment, &file, loader)?;

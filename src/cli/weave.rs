@@ -3,14 +3,16 @@
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
+use super::assets;
 use super::context::Context;
 use super::exit::Failure;
 use super::load::{Document, Loader, relative, stems};
 use super::settings::{self, Assignment};
-use crate::compile::{Compiled, NamedGraph, Options, compile};
-use crate::diagnostic::{Diagnostic, Place, has_errors};
+use crate::compile::{Compiled, NamedGraph, Options, compile, locate};
+use crate::diagnostic::{Diagnostic, Place, did_you_mean, has_errors};
+use crate::graph;
 use crate::node::Catalog;
-use crate::scene::{FileReference, Scene, Settings};
+use crate::scene::{FileReference, Scene, Setting, Settings};
 use crate::verify::{Verified, verify};
 
 /// A shader that naga accepted.
@@ -38,6 +40,8 @@ pub(super) struct Weaver<'a> {
     pub(super) catalog: &'a Catalog,
     pub(super) options: Options,
     pub(super) set: &'a [Assignment],
+    /// Whether pictures that nodes name are looked at as well.
+    pub(super) assets: bool,
 }
 
 impl Weaver<'_> {
@@ -89,6 +93,9 @@ impl Weaver<'_> {
     /// Weaves without reporting.
     pub(super) fn try_weave(&self, graphs: &[NamedGraph], objects: Vec<String>) -> (Option<Shader>, Vec<Diagnostic>) {
         let (compiled, mut found) = compile(graphs, self.catalog, &self.options);
+        if self.assets && compiled.is_some() {
+            found.extend(assets::of_graphs(self.loader, graphs));
+        }
         let Some(compiled) = compiled.filter(|_| !has_errors(&found)) else {
             return (None, found);
         };
@@ -111,14 +118,17 @@ impl Weaver<'_> {
     }
 
     /// The light graphs of a scene, named as the scene names its lights.
+    #[cfg(feature = "render")]
     pub(super) fn lights(&self, scene: &Scene, file: &Path) -> Result<Vec<NamedGraph>, Failure> {
         let lights: Vec<_> = scene.lights.iter().map(|l| self.mentioned(&l.graph, &l.name, &l.set, file)).collect();
-        self.finish(lights)
+        let failed = self.context.report(&self.loader.take_found());
+        let all: Option<Vec<NamedGraph>> = lights.into_iter().collect();
+        all.filter(|_| !failed).ok_or_else(|| Vec::new().into())
     }
 
     /// The shaders of a scene's objects, equal ones once, in the order of the objects.
     pub(super) fn weave_scene(&self, scene: &Scene, file: &Path) -> Result<Vec<Shader>, Failure> {
-        let lights = self.lights(scene, file)?;
+        let lights: Vec<_> = scene.lights.iter().map(|l| self.mentioned(&l.graph, &l.name, &l.set, file)).collect();
         let mut surfaces: Vec<(String, Vec<NamedGraph>, Vec<String>)> = Vec::new();
         for object in &scene.objects {
             // Overrides decide with the path whether two objects have the same shader with the same values.
@@ -130,16 +140,20 @@ impl Weaver<'_> {
             }
             let stem = stems(&[PathBuf::from(&object.surface.path)]).remove(0);
             // A light may have the name of the surface's file.
-            let name = if lights.iter().any(|l| l.name == stem) { format!("surface {stem}") } else { stem };
+            let taken = scene.lights.iter().any(|l| l.name == stem);
+            let name = if taken { format!("surface {stem}") } else { stem };
             let surface = self.mentioned(&object.surface, &name, &object.set, file);
             surfaces.push((key, surface.into_iter().collect(), vec![object.name.clone()]));
         }
-        if self.context.report(&self.loader.take_found()) {
+        let mut failed = self.context.report(&self.loader.take_found());
+        // Without one of its lights every surface would be told to lack it.
+        let Some(lights) = lights.into_iter().collect::<Option<Vec<NamedGraph>>>() else {
             return Err(Vec::new().into());
-        }
+        };
+        // The surfaces that could be read may have mistakes of their own.
+        surfaces.retain(|(_, surface, _)| !surface.is_empty());
         let mut shaders = Vec::new();
         let mut shown: Vec<Diagnostic> = Vec::new();
-        let mut failed = false;
         let mut unused = self.set.to_vec();
         for (_, surface, objects) in surfaces {
             let mut graphs = lights.clone();
@@ -172,29 +186,25 @@ impl Weaver<'_> {
     /// A graph that a scene mentions. None if it cannot be used; then why is kept.
     fn mentioned(&self, file: &FileReference, name: &str, set: &Settings, scene: &Path) -> Option<NamedGraph> {
         let path = relative(&file.path, &scene.display().to_string());
-        let mut graph = self.loader.named_graph(&path, name)?;
-        graph.set = set.iter().map(|(path, setting)| (path.clone(), setting.value.clone())).collect();
+        let mut graph = self.loader.named_graph(&path, name, file.span.as_ref())?;
+        for (path, Setting { value, span }) in set {
+            graph.set.insert(path.clone(), value.clone());
+            // What is wrong with the value is wrong in the scene, and a path counts from there.
+            let (Some(span), Some((node, port))) = (span, path.rsplit_once('.')) else { continue };
+            let Some(target) = graph.graph.nodes.get_mut(node) else {
+                let message = format!("`{path}` cannot be set: {} has no node `{node}`", file.path);
+                let names: Vec<&str> = graph.graph.nodes.keys().map(String::as_str).collect();
+                let help = match did_you_mean(node, names.iter().copied()) {
+                    Some(near) => format!("did you mean `{near}`?"),
+                    None => format!("its nodes are {}", names.join(", ")),
+                };
+                self.loader.add(Diagnostic::error("ST0207", message, Place::span(span.clone())).help(help));
+                graph.set.remove(path);
+                continue;
+            };
+            target.spans.params.insert(port.to_owned(), span.clone());
+            target.spans.names.insert((graph::Setting::Param, port.to_owned()), span.clone());
+        }
         Some(graph)
     }
-
-    fn finish(&self, graphs: Vec<Option<NamedGraph>>) -> Result<Vec<NamedGraph>, Failure> {
-        let failed = self.context.report(&self.loader.take_found());
-        let all: Option<Vec<NamedGraph>> = graphs.into_iter().collect();
-        all.filter(|_| !failed).ok_or_else(|| Vec::new().into())
-    }
-}
-
-/// Adds the file and line of the node that a rejected line of WGSL came from.
-fn locate(mut diagnostic: Diagnostic, graphs: &[NamedGraph]) -> Diagnostic {
-    let Some(full) = diagnostic.place.node.clone() else { return diagnostic };
-    for named in graphs {
-        let node = full.strip_prefix(&format!("{}/", named.name)).unwrap_or(&full);
-        if named.graph.nodes.contains_key(node) {
-            let Place { span, file, .. } = named.graph.place(node);
-            diagnostic.place.span = span;
-            diagnostic.place.file = file;
-            break;
-        }
-    }
-    diagnostic
 }

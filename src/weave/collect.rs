@@ -175,8 +175,10 @@ fn own_place(graph: &graph::Graph, name: &str, mut found: Diagnostic) -> Diagnos
     if outer.source.text.get(outer.range.clone()) == Some(inner.source.text.as_str()) {
         let start = outer.range.start;
         *inner = Span::new(&outer.source, start + inner.range.start..start + inner.range.end);
+        return found;
     }
-    found
+    let (line, column) = outer.line_column();
+    found.note(format!("this text is written at {}:{line}:{column}, with escapes", outer.source.name))
 }
 
 fn check_options(
@@ -235,8 +237,8 @@ fn values(
 ) -> BTreeMap<String, Value> {
     let mut values = BTreeMap::new();
     let prefix = format!("{name}.");
-    let overrides =
-        named.set.iter().filter_map(|(path, v)| Some((path.strip_prefix(&prefix)?, v, named.graph.place(name))));
+    let overrides = named.set.iter().filter_map(|(path, v)| Some((path.strip_prefix(&prefix)?, v)));
+    let overrides = overrides.map(|(port, v)| (port, v, named.graph.param_place(name, port)));
     let given = node.params.iter().map(|(port, v)| (port.as_str(), v, named.graph.param_place(name, port)));
     for (port, value, place) in given.chain(overrides) {
         let Some(input) = definition.input(port).filter(|p| !p.hidden) else {
@@ -296,7 +298,12 @@ fn check_value(input: &Port, value: &Value) -> Option<(&'static str, String, Str
 
 fn check_overrides(named: &NamedGraph, out: &mut Vec<Diagnostic>) {
     for path in named.set.keys() {
-        let node = path.rsplit_once('.').map_or(path.as_str(), |(node, _)| node);
+        let Some((node, _)) = path.rsplit_once('.') else {
+            let message = format!("`{path}` cannot be set: it names no port");
+            let error = Diagnostic::error("ST0207", message, named.graph.file_place());
+            out.push(error.help("write the name of a node, a dot, and the name of its port"));
+            continue;
+        };
         if !named.graph.nodes.contains_key(node) {
             let message = format!("`{path}` cannot be set: graph `{}` has no node `{node}`", named.name);
             let names: Vec<&str> = named.graph.nodes.keys().map(String::as_str).collect();

@@ -138,7 +138,8 @@ fn seen(
         // Nodes that are misspelt, or whose links are, are not to be chosen between.
         _ if shown.iter().any(|(i, _)| collected.nodes[*i].is_doubtful()) => None,
         [(first, _), ..] => {
-            let names: Vec<String> = shown.iter().map(|(i, _)| format!("`{}`", collected.nodes[*i].id)).collect();
+            let mut names: Vec<String> = shown.iter().map(|(i, _)| format!("`{}`", collected.nodes[*i].id)).collect();
+            names.sort_unstable();
             let message = format!("{} are all left without a follower: which one is seen?", names.join(", "));
             let help = format!(
                 "say `output: \"{}\"`, or combine them with `mix_surface` or `add_surface`",
@@ -202,7 +203,7 @@ fn finish(
         let doubtful = collected.nodes.iter().any(super::Found::is_doubtful);
         if is_lit(&node.definition) && node.lights.is_empty() && !doubtful {
             let message = format!("no light shines on `{}`: only its ambient part is seen", node.id);
-            let help = "give a light graph as well: `shadetree generate LIGHT.ron SURFACE.ron`";
+            let help = "link a light to it, give the file of a light as well, or add a light to the scene";
             out.push(Diagnostic::warning("ST0223", message, node.place.clone()).help(help));
         }
         return Some(Root::Surface { node: index });
