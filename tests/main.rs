@@ -2,6 +2,8 @@
 
 mod graphs;
 #[cfg(feature = "render")]
+mod images;
+#[cfg(feature = "render")]
 mod laws;
 mod layers;
 mod matrix;
