@@ -131,6 +131,11 @@ const WEAVE: &[(&str, &str, &str)] = &[
         "A node asks for a pass that does not exist.",
         "Its `map` line names a file in shaders/; `shadetree nodes KIND` shows the node's file.",
     ),
+    (
+        "ST0301",
+        "The parameters do not fit into one uniform block.",
+        "Every device takes 64 KiB, which is some 4,000 values. `--bake` writes values into the shader instead; they can\nthen not change without a new shader.",
+    ),
 ];
 
 /// Codes of the command line, of rendering and of the proof.

@@ -118,3 +118,26 @@ fn baking_leaves_constants() {
             .module;
     assert!(module.parameters.is_empty() && !module.wgsl.contains("parameters."), "{}", module.wgsl);
 }
+
+/// A layer without lights of its own is lit as what lies under it; every light counts once, with its own shadows.
+#[test]
+fn layers_are_lit_as_what_lies_under_them() {
+    let text = r#"Graph(version: 1, nodes: {
+        "spot": (kind: "spot_light"), "lamp": (kind: "point_light"), "a": (kind: "hard_shadow"), "b": (kind: "variance_shadow"),
+        "matte": (kind: "lambert"), "shiny": (kind: "ggx"), "both": (kind: "mix_surface"), "coat": (kind: "clear_coat"),
+    }, links: [
+        "spot -> a", "spot -> b", "a -> matte", "b -> matte", "lamp -> shiny", "matte -> both.first", "shiny -> both.second",
+        "both -> coat",
+    ])"#;
+    let wgsl = compiled(&[graph_text("layers", &SourceText::new("layers.ron", text))], &Options::default()).module.wgsl;
+    let body = &wgsl[wgsl.find("fn fs_main").expect("a fragment stage")..];
+    assert!(body.contains("spot.irradiance * a_visibility * b_visibility"), "{body}");
+    assert_eq!(body.matches(" = clear_coat(").count(), 2, "{body}");
+    assert_eq!(body.matches(" = lambert(").count(), 1, "{body}");
+    assert_eq!(body.matches(" = ggx(").count(), 1, "{body}");
+    assert!(
+        body.contains("coat_lamp_radiance + coat_ambient_radiance")
+            || body.contains("coat_spot_radiance + coat_ambient_radiance"),
+        "{body}"
+    );
+}

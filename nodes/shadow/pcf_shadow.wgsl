@@ -42,7 +42,20 @@ fn pcf_shadow(
     let position = light_position(space, point);
     let plane = receiver_plane(space, position, normal);
     let size = vec2f(textureDimensions(map));
-    let margin = bias * space.depth.z + receiver_rounding(receiver_slope(space, plane) / size);
+//#if width == 1
+//#if taps == nearest
+    let curvature = receiver_curvature(space, plane, size, 0.5);
+//#else
+    let curvature = receiver_curvature(space, plane, size, 1.0);
+//#end
+//#else
+//#if taps == nearest
+    let curvature = receiver_curvature(space, plane, size, 0.5 * f32(WIDTH));
+//#else
+    let curvature = receiver_curvature(space, plane, size, 0.5 * f32(WIDTH) + 0.5);
+//#end
+//#end
+    let margin = bias * space.depth.z + receiver_rounding(receiver_slope(space, plane) / size) + curvature;
 //#if taps == hardware
     // The sampler compares one depth with four texels, whose centres lie up to a texel to each side: the depth is taken
     // a texel away, where the plane is nearest to the light.

@@ -18,6 +18,8 @@ mod output;
 mod picture;
 mod render;
 mod settings;
+#[cfg(feature = "render")]
+mod stage;
 mod watch;
 mod weave;
 
