@@ -4,6 +4,8 @@
 mod errors;
 mod graphs;
 #[cfg(feature = "render")]
+mod images;
+#[cfg(feature = "render")]
 mod laws;
 mod layers;
 mod matrix;

@@ -56,7 +56,7 @@ pub(super) fn once(command: &Render, context: &Context, loader: &Loader, gpu: &m
         output: if exr { ColorFormat::Float } else { ColorFormat::Half },
     };
     let progress = progress(context);
-    let result = draw(command, &job, gpu);
+    let result = draw(command, context, &job, gpu);
     progress.finish_and_clear();
     // A lost device is opened anew on the next run of --watch.
     let (size, pixels, adapter, messages) = result.inspect_err(|_| *gpu = None).map_err(failure)?;
@@ -84,7 +84,7 @@ pub(super) fn once(command: &Render, context: &Context, loader: &Loader, gpu: &m
 
 type Drawn = ((u32, u32), Vec<[f32; 4]>, String, Vec<String>);
 
-fn draw(command: &Render, job: &Job<'_>, gpu: &mut Option<Gpu>) -> Result<Drawn, RenderError> {
+fn draw(command: &Render, context: &Context, job: &Job<'_>, gpu: &mut Option<Gpu>) -> Result<Drawn, RenderError> {
     let gpu = match gpu {
         Some(gpu) => gpu,
         None => gpu.insert(Gpu::new(&adapter_options(command.adapter.as_deref()))?),
@@ -94,6 +94,7 @@ fn draw(command: &Render, job: &Job<'_>, gpu: &mut Option<Gpu>) -> Result<Drawn,
         return Ok((map.size, map.pixels, gpu.adapter().name.clone(), map.messages));
     }
     let frame = gpu.render(job)?;
+    frame.timing_table().iter().for_each(|line| context.detail(line));
     Ok((frame.size, frame.pixels, frame.adapter.name, frame.messages))
 }
 
