@@ -1,8 +1,8 @@
 //! Calls of node functions: arguments from wires, in the context of a light or of none.
 
-use super::{Id, Instance, MapDemand, Op, Parameter, Program, Resource, sampler_settings};
+use super::{Bake, Id, Instance, MapDemand, Op, Parameter, Program, Resource, sampler_settings};
 use crate::module::stored;
-use crate::node::{Definition, Port, rename};
+use crate::node::{Default, Definition, Port, rename};
 use crate::semantic::{Chain, Kind, Quantity, Shape, Value};
 use crate::weave::{Node, Wire, Woven, is_light, is_shadow};
 
@@ -230,7 +230,9 @@ impl Program {
     }
 
     fn parameter(&mut self, definition: &Definition, node: usize, port: &Port, value: &Value) -> Id {
-        let constant = self.bake && !space_inputs(definition).contains(&port.name);
+        let default = matches!(&port.default, Some(Default::Value(d)) if d == value);
+        let constant = self.bake == Bake::All || (self.bake == Bake::Defaults && default);
+        let constant = constant && !space_inputs(definition).contains(&port.name);
         let shape = self.shape_of(node, port);
         if constant {
             let text = literal(&shape, port, value);

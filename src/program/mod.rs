@@ -195,7 +195,19 @@ pub struct Program {
     parameter_index: HashMap<(usize, String), usize>,
     inline_texts: HashMap<usize, Rc<str>>,
     conversions: Conversions,
-    bake: bool,
+    bake: Bake,
+}
+
+/// Which values are written as constants instead of parameters. What the spaces of maps are made from never is.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Bake {
+    /// None.
+    #[default]
+    Nothing,
+    /// Those that are the defaults of their nodes.
+    Defaults,
+    /// All.
+    All,
 }
 
 impl Program {
