@@ -2,12 +2,15 @@
 
 use std::rc::Rc;
 
-use super::collect::{Collected, suggest};
+use super::collect::{Collected, identifier, suggest};
 use super::resolve::is_lamp;
 use super::{Node, is_lit, is_surface};
 use crate::compile::{NamedGraph, Output};
 use crate::diagnostic::{Diagnostic, Place};
 use crate::semantic::{Chain, Conversions, Kind, Meaning, Shape, Type};
+
+/// Most nodes that one message names.
+const MAX_NAMED: usize = 8;
 
 /// What is written.
 pub enum Root {
@@ -115,7 +118,7 @@ fn seen(
 ) -> Option<Root> {
     let mut ends: Vec<(usize, Option<String>)> = Vec::new();
     for (index, named) in graphs.iter().enumerate() {
-        ends.extend(exports(named, index, collected, out)?);
+        ends.extend(exports(graphs, named, index, collected, out)?);
     }
     let is = |i: usize, what: fn(&crate::node::Definition) -> bool| {
         collected.nodes[i].definition.as_deref().is_some_and(what)
@@ -135,7 +138,11 @@ fn seen(
         }
         [] => lamps_alone(&ends, collected, nodes, out),
         [(first, _), ..] => {
-            let names: Vec<String> = shown.iter().map(|(i, _)| format!("`{}`", collected.nodes[*i].id)).collect();
+            let names = shown.iter().take(MAX_NAMED).map(|(i, _)| format!("`{}`", collected.nodes[*i].id));
+            let mut names: Vec<String> = names.collect();
+            if shown.len() > MAX_NAMED {
+                names.push(format!("{} more", shown.len() - MAX_NAMED));
+            }
             let message = format!("{} are all left without a follower: which one is seen?", names.join(", "));
             let help = format!(
                 "say `output: \"{}\"`, or combine them with `mix_surface` or `add_surface`",
@@ -149,6 +156,7 @@ fn seen(
 
 /// The nodes that a graph exports: the one that it names, or those that feed nothing.
 fn exports(
+    graphs: &[NamedGraph],
     named: &NamedGraph,
     index: usize,
     collected: &Collected,
@@ -164,9 +172,8 @@ fn exports(
                 .collect(),
         );
     };
-    let found = own.iter().copied().find(|i| {
-        super::lights::short(&collected.nodes[*i].id) == end.node || collected.nodes[*i].id.ends_with(&end.node)
-    });
+    let id = identifier(graphs, index, &end.node);
+    let found = own.iter().copied().find(|i| collected.nodes[*i].id == id);
     if found.is_none() {
         let message = format!("the graph's output `{end}` is not among its nodes");
         let help = "name a node that is there and not muted, or leave `output` out";
