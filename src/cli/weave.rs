@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
+use super::assets::check_images;
 use super::context::Context;
 use super::exit::Failure;
 use super::load::{Document, Loader, relative, stems};
@@ -38,6 +39,8 @@ pub(super) struct Weaver<'a> {
     pub(super) catalog: &'a Catalog,
     pub(super) options: Options,
     pub(super) set: &'a [Assignment],
+    /// Whether the pictures that shaders read must be there.
+    pub(super) images: bool,
 }
 
 impl Weaver<'_> {
@@ -93,7 +96,13 @@ impl Weaver<'_> {
             return (None, found);
         };
         match verify(&compiled.module) {
-            Ok(verified) => (Some(Shader { objects, compiled, verified }), found),
+            Ok(verified) => {
+                if self.images {
+                    found.extend(check_images(&compiled.module, graphs, self.loader));
+                }
+                let shader = Shader { objects, compiled, verified };
+                (Some(shader).filter(|_| !has_errors(&found)), found)
+            }
             Err(errors) => {
                 if self.context.verbose > 0 {
                     self.context.detail(&compiled.module.wgsl);
