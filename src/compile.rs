@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use crate::diagnostic::{Diagnostic, Place, has_errors};
+use crate::diagnostic::{Diagnostic, Place, has_errors, limited};
 use crate::emit::emit;
 use crate::graph::Graph;
 use crate::module::Module;
@@ -57,8 +57,21 @@ pub struct NamedGraph {
     pub set: BTreeMap<String, Value>,
 }
 
+/// Most errors, and most warnings, that one compilation tells of.
+pub(crate) const MAX_REPORTED: usize = 100;
+
 /// Weaves graphs into one module. The module is there exactly if no diagnostic is an error.
 pub fn compile(graphs: &[NamedGraph], catalog: &Catalog, options: &Options) -> (Option<Compiled>, Vec<Diagnostic>) {
+    let (compiled, found) = compile_unlimited(graphs, catalog, options);
+    let message = format!("more than {MAX_REPORTED} mistakes; the rest are not listed");
+    (compiled, limited(found, MAX_REPORTED, &Diagnostic::error("ST0066", message, Place::default())))
+}
+
+fn compile_unlimited(
+    graphs: &[NamedGraph],
+    catalog: &Catalog,
+    options: &Options,
+) -> (Option<Compiled>, Vec<Diagnostic>) {
     let (woven, mut diagnostics) = weave(graphs, catalog, &options.output);
     let Some(woven) = woven else { return (None, diagnostics) };
     let make = |bake| emit(&build(&woven, bake), catalog, &title(graphs));

@@ -7,7 +7,7 @@ use petgraph::algo::toposort;
 use petgraph::graph::{DiGraph, NodeIndex};
 
 use super::{Found, Link};
-use crate::compile::NamedGraph;
+use crate::compile::{MAX_REPORTED, NamedGraph};
 use crate::diagnostic::{Diagnostic, SourceText, Span, did_you_mean};
 use crate::graph::{self, Setting};
 use crate::node::{self, Catalog, Definition, Port};
@@ -149,7 +149,9 @@ fn definition(
     } else {
         let message = format!("there is no node called `{}`", node.kind);
         let error = Diagnostic::error("ST0200", message, graph.kind_place(name));
-        out.push(match catalog.nearest(&node.kind) {
+        // Looking through all names takes long, and nobody reads a hundred suggestions.
+        let nearest = if out.len() < MAX_REPORTED { catalog.nearest(&node.kind) } else { None };
+        out.push(match nearest {
             Some(near) => error.help(format!("did you mean `{near}`?")),
             None => error.help("`shadetree nodes` lists all nodes; `--nodes DIR` adds a folder of your own"),
         });
