@@ -134,7 +134,7 @@ const WEAVE: &[(&str, &str, &str)] = &[
     (
         "ST0301",
         "The parameters do not fit into one uniform block.",
-        "Every device takes 64 KiB, which is some 4,000 values. `--bake` writes values into the shader instead; they can\nthen not change without a new shader.",
+        "Every device takes 64 KiB, which is some 4,000 values. Beyond that the values that no one changed are written into\nthe shader as constants, then all values; they can then not change without a new shader.",
     ),
 ];
 

@@ -40,12 +40,18 @@ impl Check {
         let (catalog, found) = loader.catalog(&self.nodes)?;
         // Here the person asks about everything, so a broken node file counts.
         let mut broken = context.report(&found);
-        let weaver = Weaver { context, loader, catalog: &catalog, options: Options::default(), set: &[], assets: true };
+        let weaver = Weaver { context, loader, catalog: &catalog, options: Options::default(), set: &[], images: true };
         let shaders = match weaver.read(&self.files)? {
             Input::Graphs(graphs) => vec![weaver.weave_graphs(graphs)?],
             Input::Scene(scene, file) => {
-                broken |= context.report(&assets::of_scene(loader, &scene, &file));
-                weaver.weave_scene(&scene, &file)?
+                // Everything is looked at before giving up.
+                let shaders = weaver.weave_scene(&scene, &file);
+                let meshes = assets::each_mesh(&scene, &file, loader, drop);
+                let surroundings = assets::environment_image(&scene.environment, &file, loader);
+                for failure in [meshes.err(), surroundings.err()].into_iter().flatten() {
+                    broken |= context.report(&failure.diagnostics);
+                }
+                shaders?
             }
         };
         if context.is_json() {
@@ -53,7 +59,7 @@ impl Check {
             output::print(format!("{summary}\n").as_bytes())?;
         }
         if broken {
-            return Ok(Exit::Input);
+            return Err(Vec::new().into());
         }
         context.say(&format!("no errors; {} shader{}", shaders.len(), if shaders.len() == 1 { "" } else { "s" }));
         Ok(Exit::Done)

@@ -1,10 +1,11 @@
 //! From file names to graphs and scenes. Every file that is read is remembered, so that `--watch` knows what to watch.
 
-use std::cell::RefCell;
-use std::collections::BTreeSet;
+use std::cell::{Cell, RefCell};
+use std::collections::{BTreeMap, BTreeSet};
 use std::io::Read;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
+use std::time::SystemTime;
 
 use super::exit::{Exit, Failure};
 use super::output::is_dash;
@@ -32,14 +33,41 @@ pub(super) enum Document {
 /// Reads files and collects what is wrong with them.
 #[derive(Debug, Default)]
 pub(super) struct Loader {
-    touched: RefCell<BTreeSet<PathBuf>>,
+    touched: RefCell<BTreeMap<PathBuf, Option<Stamp>>>,
     found: RefCell<Vec<Diagnostic>>,
+    unreadable: Cell<bool>,
+}
+
+/// What tells that a file or folder has changed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct Stamp {
+    length: u64,
+    modified: Option<SystemTime>,
+}
+
+impl Stamp {
+    /// None where there is nothing.
+    pub(super) fn of(path: &Path) -> Option<Self> {
+        let meta = std::fs::metadata(path).ok()?;
+        // The time of a folder also tells of strangers in it, so what is in it is watched file by file.
+        let modified = if meta.is_dir() { None } else { meta.modified().ok() };
+        Some(Self { length: if meta.is_dir() { 0 } else { meta.len() }, modified })
+    }
 }
 
 impl Loader {
-    /// Files read so far.
-    pub(super) fn touched(&self) -> BTreeSet<PathBuf> {
+    /// Files and folders read so far, or looked for, each as it was just before.
+    pub(super) fn touched(&self) -> BTreeMap<PathBuf, Option<Stamp>> {
         self.touched.borrow().clone()
+    }
+
+    /// Whether some file could not be read.
+    pub(super) fn is_unreadable(&self) -> bool {
+        self.unreadable.get()
+    }
+
+    fn touch(&self, path: &Path) {
+        self.touched.borrow_mut().insert(path.to_path_buf(), Stamp::of(path));
     }
 
     /// Takes the diagnostics so far.
@@ -62,6 +90,7 @@ impl Loader {
     pub(super) fn bytes(&self, path: &Path) -> Result<Vec<u8>, Failure> {
         let name = path.display().to_string();
         let fail = |code, exit, message: String, help: &str| {
+            self.unreadable.set(self.unreadable.get() || exit == Exit::Io);
             Failure::new(exit, Diagnostic::error(code, message, Place::file(&*name)).help(help))
         };
         let unreadable = |e: std::io::Error| {
@@ -78,7 +107,7 @@ impl Loader {
         if is_dash(path) {
             std::io::stdin().lock().take(limit).read_to_end(&mut bytes).map_err(unreadable)?;
         } else {
-            self.touched.borrow_mut().insert(path.to_path_buf());
+            self.touch(path);
             let meta = std::fs::metadata(path).map_err(unreadable)?;
             if meta.is_dir() {
                 let message = format!("{name} is a folder, not a file");
@@ -190,8 +219,13 @@ impl Loader {
     fn wgsl_files(&self, folder: &Path) -> Result<Vec<PathBuf>, Failure> {
         let mut files = Vec::new();
         let mut open = vec![(folder.to_path_buf(), 0)];
+        let mut seen = BTreeSet::new();
         while let Some((folder, depth)) = open.pop() {
-            self.touched.borrow_mut().insert(folder.clone());
+            // Links may lead back to where they are.
+            if !seen.insert(canonical(&folder)) {
+                continue;
+            }
+            self.touch(&folder);
             let unreadable = |e: std::io::Error| {
                 let place = Place::file(folder.display().to_string());
                 let diagnostic = Diagnostic::error("ST0501", format!("cannot read the folder: {e}"), place);

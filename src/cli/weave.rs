@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
-use super::assets;
+use super::assets::check_images;
 use super::context::Context;
 use super::exit::Failure;
 use super::load::{Document, Loader, relative, stems};
@@ -40,8 +40,8 @@ pub(super) struct Weaver<'a> {
     pub(super) catalog: &'a Catalog,
     pub(super) options: Options,
     pub(super) set: &'a [Assignment],
-    /// Whether pictures that nodes name are looked at as well.
-    pub(super) assets: bool,
+    /// Whether the pictures that shaders read must be there.
+    pub(super) images: bool,
 }
 
 impl Weaver<'_> {
@@ -93,14 +93,17 @@ impl Weaver<'_> {
     /// Weaves without reporting.
     pub(super) fn try_weave(&self, graphs: &[NamedGraph], objects: Vec<String>) -> (Option<Shader>, Vec<Diagnostic>) {
         let (compiled, mut found) = compile(graphs, self.catalog, &self.options);
-        if self.assets && compiled.is_some() {
-            found.extend(assets::of_graphs(self.loader, graphs));
-        }
         let Some(compiled) = compiled.filter(|_| !has_errors(&found)) else {
             return (None, found);
         };
         match verify(&compiled.module) {
-            Ok(verified) => (Some(Shader { objects, compiled, verified }), found),
+            Ok(verified) => {
+                if self.images {
+                    found.extend(check_images(&compiled.module, graphs, self.loader));
+                }
+                let shader = Shader { objects, compiled, verified };
+                (Some(shader).filter(|_| !has_errors(&found)), found)
+            }
             Err(errors) => {
                 if self.context.verbose > 0 {
                     self.context.detail(&compiled.module.wgsl);

@@ -79,8 +79,13 @@ fn graph(document: &ron::Document, report: &mut Report) -> Option<Graph> {
         *text = given.unwrap_or_default().to_string();
     }
     let mut items = Vec::new();
+    let before = report.found.len();
     if let Some(nodes) = field(&fields, "nodes").and_then(|n| report.take(n.as_map(&source))) {
         read_node::nodes(nodes, &mut graph, &mut items, report);
+    }
+    if report.found[before..].iter().any(|d| d.code == "ST0060") {
+        // No node was read, so everything that names one would be wrong.
+        return None;
     }
     if let Some(list) = field(&fields, "links").and_then(|n| report.take(n.as_list(&source))) {
         links(list, &mut graph, &mut items, report);

@@ -6,6 +6,7 @@ use wgpu::TextureFormat;
 
 use super::RenderError;
 use super::adapter::{self, AdapterOptions, AdapterSummary};
+use super::error::UNIFORM_BLOCK;
 use super::format::{self, Abilities};
 
 /// An open device with everything that is asked about it.
@@ -53,11 +54,9 @@ impl Device {
         let reported = trouble.clone();
         device.on_uncaptured_error(Arc::new(move |error: wgpu::Error| put(&reported.error, convert("device", &error))));
         let reported = trouble.clone();
-        device.set_device_lost_callback(move |reason, message| {
-            // Dropping a device destroys it; that is no loss.
-            if reason != wgpu::DeviceLostReason::Destroyed {
-                put(&reported.lost, message);
-            }
+        device.set_device_lost_callback(move |_, message| {
+            // Dropping a device destroys it, but then nobody asks any more.
+            put(&reported.lost, if message.is_empty() { "it was destroyed".to_owned() } else { message });
         });
         let downlevel = adapter.get_downlevel_capabilities().flags;
         Ok(Self { limits: device.limits(), device, queue, features, downlevel, summary, adapter, trouble })
@@ -82,11 +81,16 @@ impl Device {
         let validation = pollster::block_on(validation.pop());
         let internal = pollster::block_on(internal.pop());
         let memory = pollster::block_on(memory.pop());
+        // Memory first: running out of it makes later calls invalid.
+        let error = memory.or(validation).or(internal);
+        if error.is_some() || result.is_err() {
+            // Loss is told while polling, and makes everything else invalid.
+            let _ = self.device.poll(wgpu::PollType::Poll);
+        }
         if let Some(message) = self.trouble.lost.lock().unwrap_or_else(PoisonError::into_inner).clone() {
             return Err(RenderError::DeviceLost(message));
         }
-        // Memory first: running out of it makes later calls invalid.
-        if let Some(error) = memory.or(validation).or(internal) {
+        if let Some(error) = error {
             return Err(convert(what, &error));
         }
         if let Some(error) = take(&self.trouble.error) {
@@ -110,7 +114,7 @@ impl Device {
         if width == 0 || height == 0 {
             return Err(RenderError::Job(format!("{what} has no pixels ({width} x {height})")));
         }
-        check(what, u64::from(width.max(height)), u64::from(self.limits.max_texture_dimension_2d))
+        check(what, u64::from(width.max(height)), u64::from(self.limits.max_texture_dimension_2d), "texels on a side")
     }
 
     /// A buffer with `contents`, padded to a multiple of 4 bytes.
@@ -121,9 +125,10 @@ impl Device {
         contents: &[u8],
     ) -> Result<wgpu::Buffer, RenderError> {
         let size = (contents.len() as u64).next_multiple_of(4).max(16);
-        check(what, size, self.limits.max_buffer_size)?;
+        check(what, size, self.limits.max_buffer_size, "bytes")?;
         if usage.contains(wgpu::BufferUsages::UNIFORM) {
-            check(what, size, self.limits.max_uniform_buffer_binding_size)?;
+            let block = format!("{UNIFORM_BLOCK} `{what}`");
+            check(&block, size, self.limits.max_uniform_buffer_binding_size, "bytes")?;
         }
         let buffer = self.device.create_buffer(&wgpu::BufferDescriptor {
             label: Some(what),
@@ -167,9 +172,9 @@ impl Device {
     }
 }
 
-/// Fails where `size` is over `limit`.
-pub(super) fn check(what: &str, size: u64, limit: u64) -> Result<(), RenderError> {
-    if size <= limit { Ok(()) } else { Err(RenderError::TooLarge { what: what.to_owned(), size, limit }) }
+/// Fails where `size` is over `limit`, both counted in `unit`.
+pub(super) fn check(what: &str, size: u64, limit: u64, unit: &'static str) -> Result<(), RenderError> {
+    if size <= limit { Ok(()) } else { Err(RenderError::TooLarge { what: what.to_owned(), size, limit, unit }) }
 }
 
 fn convert(what: &str, error: &wgpu::Error) -> RenderError {

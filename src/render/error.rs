@@ -1,5 +1,8 @@
 //! What can go wrong between a job and its picture.
 
+/// How the names of uniform blocks begin in [`RenderError::TooLarge`].
+pub(super) const UNIFORM_BLOCK: &str = "the uniform block";
+
 /// Why a picture could not be made. The text is one sentence without a full stop; [`RenderError::help`] says what to do.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum RenderError {
@@ -26,7 +29,7 @@ pub enum RenderError {
     #[error("{0}")]
     Unsupported(String),
     /// Something is larger than the adapter allows.
-    #[error("{what} is {size}, but at most {limit} is possible")]
+    #[error("{what} takes {size} {unit}, but at most {limit} {unit} are possible")]
     TooLarge {
         /// What.
         what: String,
@@ -34,6 +37,8 @@ pub enum RenderError {
         size: u64,
         /// How large it may be.
         limit: u64,
+        /// What both are counted in.
+        unit: &'static str,
     },
     /// A parameter has a value that nothing can be rendered with.
     #[error("parameter `{path}`: {message}")]
@@ -83,6 +88,9 @@ impl RenderError {
                     .into(),
             ),
             Self::UnknownBackend(_) => Some("backends are vulkan, gl, metal and dx12, separated by commas".into()),
+            Self::TooLarge { what, .. } if what.starts_with(UNIFORM_BLOCK) => {
+                Some("use fewer parameters in one material: bake them, or leave nodes out".into())
+            }
             Self::OutOfMemory(_) | Self::TooLarge { .. } => {
                 Some("lower the size of the picture or of its maps, or the number of samples".into())
             }

@@ -39,6 +39,12 @@ impl Gpu {
         self.pipelines.built
     }
 
+    /// Destroys the device, as a driver reset would.
+    #[cfg(test)]
+    pub(super) fn lose(&self) {
+        self.device.device.destroy();
+    }
+
     /// Renders a picture.
     pub fn render(&mut self, job: &Job<'_>) -> Result<Frame, RenderError> {
         check_camera(&job.camera)?;
@@ -53,7 +59,7 @@ impl Gpu {
         let pixels = u64::from(job.size.0) * u64::from(job.size.1);
         let picture_bytes = u64::from(target.samples + 1) * u64::from(texel_bytes(target.format) + 4);
         let map_bytes: u64 = lights.maps.iter().map(MapPlan::bytes).sum();
-        check("the memory for the picture and its maps", pixels * picture_bytes + map_bytes, MOST_BYTES)?;
+        check("the picture with its maps", pixels * picture_bytes + map_bytes, MOST_BYTES, "bytes")?;
 
         lights.build(device, pipelines)?;
         let mut main = Vec::new();
@@ -105,7 +111,7 @@ impl Gpu {
         lights.build(device, &mut self.pipelines)?;
         let mut messages = std::mem::take(&mut lights.messages);
         let map = &lights.maps[0];
-        check("the memory for the map", map.bytes(), MOST_BYTES)?;
+        check("the map", map.bytes(), MOST_BYTES, "bytes")?;
         device.scoped("the map", || {
             let mut uploads = Uploads::new(device);
             let mut timer = Timer::new(device, map.passes.len());

@@ -117,6 +117,30 @@ pub struct Frame {
     pub messages: Vec<String>,
 }
 
+impl Frame {
+    /// What each pass took, and all of them, as lines of a table. Adapters that compute on the CPU are named as such:
+    /// their times say nothing about graphics cards.
+    pub fn timing_table(&self) -> Vec<String> {
+        let width = self.timings.iter().map(|t| t.name.chars().count()).max().unwrap_or(0).max("all passes".len());
+        let line = |name: &str, time: Option<f64>| match time {
+            Some(ms) => format!("{name:<width$} {ms:>9.3} ms"),
+            None => format!("{name:<width$} {:>9}", "unknown"),
+        };
+        let mut lines: Vec<String> = self.timings.iter().map(|t| line(&t.name, t.milliseconds)).collect();
+        // A sum without one of its parts would be no sum.
+        let all: Option<f64> = self.timings.iter().map(|t| t.milliseconds).sum();
+        let software = if self.adapter.software { ", computed on the CPU" } else { "" };
+        lines.push(format!(
+            "{}, {} x {} on {}{software}",
+            line("all passes", all),
+            self.size.0,
+            self.size.1,
+            self.adapter.name
+        ));
+        lines
+    }
+}
+
 /// How long a pass took.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PassTiming {
@@ -141,4 +165,41 @@ pub struct MapPicture {
     pub space: LightSpace,
     /// What was done otherwise than asked.
     pub messages: Vec<String>,
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn frame(times: [Option<f64>; 2], software: bool) -> Frame {
+        let names = ["sun: blur x", "main"];
+        Frame {
+            size: (64, 32),
+            pixels: Vec::new(),
+            timings: names
+                .into_iter()
+                .zip(times)
+                .map(|(name, milliseconds)| PassTiming { name: name.into(), milliseconds })
+                .collect(),
+            adapter: AdapterSummary { name: "card".into(), software, ..AdapterSummary::default() },
+            messages: Vec::new(),
+        }
+    }
+
+    #[test]
+    fn timings_are_a_table_with_a_sum() {
+        let expected =
+            ["sun: blur x     0.500 ms", "main           12.250 ms", "all passes     12.750 ms, 64 x 32 on card"];
+        assert_eq!(frame([Some(0.5), Some(12.25)], false).timing_table(), expected);
+    }
+
+    #[test]
+    fn times_that_are_not_known_are_not_summed_and_software_says_so() {
+        let expected = [
+            "sun: blur x   unknown",
+            "main            1.000 ms",
+            "all passes    unknown, 64 x 32 on card, computed on the CPU",
+        ];
+        assert_eq!(frame([None, Some(1.0)], true).timing_table(), expected);
+    }
 }

@@ -73,7 +73,7 @@ impl Pipelines {
 
 fn build(device: &Device, what: &str, spec: &Spec) -> Result<Pipeline, RenderError> {
     let groups = spec.bindings.iter().map(|(group, ..)| group + 1).max().unwrap_or(0);
-    check("number of bind groups", u64::from(groups), u64::from(device.limits.max_bind_groups))?;
+    check(what, u64::from(groups), u64::from(device.limits.max_bind_groups), "bind groups")?;
     let layouts: Vec<wgpu::BindGroupLayout> = (0..groups)
         .map(|group| {
             let entries: Vec<wgpu::BindGroupLayoutEntry> = spec

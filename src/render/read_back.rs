@@ -73,7 +73,7 @@ pub(super) fn texture(device: &Device, texture: &wgpu::Texture) -> Result<Vec<[f
 }
 
 fn staging(device: &Device, size: u64) -> Result<wgpu::Buffer, RenderError> {
-    check("the buffer for reading back", size, device.limits.max_buffer_size)?;
+    check("the buffer for reading back", size, device.limits.max_buffer_size, "bytes")?;
     Ok(device.device.create_buffer(&wgpu::BufferDescriptor {
         label: Some("read back"),
         size,

@@ -2,6 +2,7 @@
 
 mod maps;
 mod materials;
+mod trouble;
 
 use std::collections::BTreeMap;
 
