@@ -217,11 +217,6 @@ const OWN: &[(&str, &str, &str)] = &[
     ("ST0518", "A file is not in canonical form.", "`shadetree fmt FILE` rewrites it. Its meaning does not change."),
     ("ST0519", "Changes of files cannot be watched.", "The system's limit of watched folders may be reached."),
     (
-        "ST0520",
-        "A picture that a node names cannot be read.",
-        "PNG, JPEG and HDR files can be used. The ending of the name does not matter, the content does.",
-    ),
-    (
         "ST0900",
         "naga rejects the WGSL that was woven.",
         "If the place is a node of your own (a `custom` node, or a file in --nodes DIR), its WGSL is at fault: the notes\nshow the line. Otherwise this is a fault in shadetree; please report it with the graph.",

@@ -95,7 +95,9 @@ pub(super) fn check_images(module: &Module, graphs: &[NamedGraph], loader: &Load
             Ok(bytes) => size(bytes).err().map(|message| ("ST0514", message)),
         };
         if let Some((code, message)) = trouble {
-            let message = format!("the picture {}: {message}", full.display());
+            // What cannot be read has its name in the message already.
+            let name = full.display().to_string();
+            let message = if message.contains(&name) { message } else { format!("the picture {name}: {message}") };
             let place = naming(graphs, path, base);
             found.push(Diagnostic::error(code, message, place).help("name a PNG, JPEG or HDR file"));
         }
