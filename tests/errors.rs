@@ -113,7 +113,9 @@ fn told(case: &Path) -> String {
             found.extend(graphs(&texts, &own));
             found
         }
-        "ron" if source(case).text.contains("\nScene") || source(case).text.starts_with("Scene") => return checked(case),
+        "ron" if source(case).text.contains("\nScene") || source(case).text.starts_with("Scene") => {
+            return checked(case);
+        }
         "ron" => graphs(&[source(case)], catalog()),
         "obj" => scene::from_obj(&source(case)).err().unwrap_or_default(),
         "wgsl" if area == "library" => catalog().clone().add_library(&source(case).name, &source(case).text),

@@ -152,7 +152,10 @@ fn plain(message: &str) -> String {
 /// What to do about the mistakes that are made most often.
 fn help(message: &str) -> Option<&'static str> {
     let advice = [
-        ("no definition in scope", "declare it, make it a parameter of the function, or put its library on a `use:` line"),
+        (
+            "no definition in scope",
+            "declare it, make it a parameter of the function, or put its library on a `use:` line",
+        ),
         ("is a reserved keyword", "give it another name"),
         ("is recursive", "WGSL has no recursion: write a loop"),
         ("does not match the declared return type", "return a value of the type after `->`, or change that type"),

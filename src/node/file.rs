@@ -124,7 +124,8 @@ pub(crate) fn resolve(
     let mut found = Vec::new();
     for (name, choice) in choices {
         let Some(option) = options.iter().find(|o| o.name == *name) else {
-            let mut error = Diagnostic::error("ST0133", format!("there is no option `{name}`"), place.clone().port(name));
+            let mut error =
+                Diagnostic::error("ST0133", format!("there is no option `{name}`"), place.clone().port(name));
             error.help = match did_you_mean(name, options.iter().map(|o| o.name.as_str())) {
                 Some(near) => Some(format!("did you mean `{near}`?")),
                 None if options.is_empty() => Some("it has no options".into()),

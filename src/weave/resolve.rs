@@ -252,7 +252,8 @@ impl Work<'_> {
         let from = self.done[link.from].as_ref().expect("only resolved neighbours are open");
         let message = format!("`{}` contributes nothing to `{}`", from.id, self.found.id);
         let mut error = Diagnostic::error("ST0215", message, link.place.clone());
-        let given = from.definition.main.outputs.iter().filter(|o| link.from_port.as_ref().is_none_or(|n| *n == o.name));
+        let given =
+            from.definition.main.outputs.iter().filter(|o| link.from_port.as_ref().is_none_or(|n| *n == o.name));
         for output in given {
             error = error.note(format!("`{}.{}` is {}", from.id, output.name, from.output_type(output)));
         }
@@ -402,7 +403,9 @@ impl Work<'_> {
         let name = &port.name;
         let link = format!("link a node to it: `\"NODE -> {target}.{name}\"`");
         let example = match port.ty.shape {
-            Shape::Texture => return error.help(format!("name an image file: `params: {{\"{name}\": \"picture.png\"}}`")),
+            Shape::Texture => {
+                return error.help(format!("name an image file: `params: {{\"{name}\": \"picture.png\"}}`"));
+            }
             Shape::F32(1) | Shape::Generic => "0.5",
             Shape::F32(2) => "(0.5, 0.5)",
             Shape::F32(3) => "(0.5, 0.5, 0.5)",
