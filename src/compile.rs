@@ -2,13 +2,13 @@
 
 use std::collections::BTreeMap;
 
-use crate::diagnostic::{Diagnostic, Place, has_errors};
+use crate::diagnostic::{Diagnostic, Place, has_errors, limited};
 use crate::emit::emit;
 use crate::graph::Graph;
 use crate::module::Module;
 use crate::node::Catalog;
 use crate::plan::Plan;
-use crate::program::build;
+use crate::program::{Bake, build};
 use crate::semantic::Value;
 use crate::weave::weave;
 
@@ -57,32 +57,69 @@ pub struct NamedGraph {
     pub set: BTreeMap<String, Value>,
 }
 
+/// Most errors, and most warnings, that one compilation tells of.
+pub(crate) const MAX_REPORTED: usize = 100;
+
 /// Weaves graphs into one module. The module is there exactly if no diagnostic is an error.
 pub fn compile(graphs: &[NamedGraph], catalog: &Catalog, options: &Options) -> (Option<Compiled>, Vec<Diagnostic>) {
+    let (compiled, found) = compile_unlimited(graphs, catalog, options);
+    let message = format!("more than {MAX_REPORTED} mistakes; the rest are not listed");
+    (compiled, limited(found, MAX_REPORTED, &Diagnostic::error("ST0066", message, Place::default())))
+}
+
+fn compile_unlimited(
+    graphs: &[NamedGraph],
+    catalog: &Catalog,
+    options: &Options,
+) -> (Option<Compiled>, Vec<Diagnostic>) {
     let (woven, mut diagnostics) = weave(graphs, catalog, &options.output);
     let Some(woven) = woven else { return (None, diagnostics) };
-    let program = build(&woven, options.bake);
-    let (module, plan, mut found) = emit(&program, catalog, &title(graphs));
+    let make = |bake| emit(&build(&woven, bake), catalog, &title(graphs));
+    let (mut module, mut plan, mut found) = make(if options.bake { Bake::All } else { Bake::Nothing });
+    // What no device need take as uniforms becomes constants, the nodes' own defaults first.
+    for (bake, which) in [(Bake::Defaults, "values that no one changed"), (Bake::All, "all values")] {
+        if module.parameter_bytes > MAX_PARAMETER_BYTES {
+            found.push(too_many_parameters(&module, which, graphs));
+            let told = found;
+            (module, plan, found) = make(bake);
+            found.extend(told);
+        }
+    }
     diagnostics.append(&mut found);
-    diagnostics.extend(too_many_parameters(&module, graphs));
     if has_errors(&diagnostics) { (None, diagnostics) } else { (Some(Compiled { module, plan }), diagnostics) }
+}
+
+/// Adds the file and line of the node that a diagnostic names, where it has no place of its own: what
+/// [`crate::verify`] reports is known by node alone.
+pub fn locate(mut diagnostic: Diagnostic, graphs: &[NamedGraph]) -> Diagnostic {
+    let Some(full) = diagnostic.place.node.clone().filter(|_| diagnostic.place.span.is_none()) else {
+        return diagnostic;
+    };
+    for named in graphs {
+        let node = full.strip_prefix(&format!("{}/", named.name)).unwrap_or(&full);
+        if named.graph.nodes.contains_key(node) {
+            let Place { span, file, .. } = named.graph.place(node);
+            diagnostic.place.span = span;
+            diagnostic.place.file = file;
+            break;
+        }
+    }
+    diagnostic
 }
 
 /// The largest uniform block that every WebGPU device takes, in bytes (limit `maxUniformBufferBindingSize`).
 const MAX_PARAMETER_BYTES: u32 = 64 << 10;
 
-fn too_many_parameters(module: &Module, graphs: &[NamedGraph]) -> Option<Diagnostic> {
-    let bytes = module.parameter_bytes;
-    if bytes <= MAX_PARAMETER_BYTES {
-        return None;
-    }
+fn too_many_parameters(module: &Module, which: &str, graphs: &[NamedGraph]) -> Diagnostic {
     let message = format!(
-        "the {} parameters take {bytes} bytes, and {MAX_PARAMETER_BYTES} is all that a device must take",
-        module.parameters.len()
+        "the {} parameters take {} bytes, and {MAX_PARAMETER_BYTES} is all that a device must take: {which} became constants",
+        module.parameters.len(),
+        module.parameter_bytes
     );
     let place = graphs.first().map_or_else(Place::default, |g| g.graph.file_place());
-    let help = "`--bake` writes them into the shader as constants; or use fewer nodes";
-    Some(Diagnostic::error("ST0301", message, place).help(help))
+    let help =
+        "a constant needs a new shader to change; `--bake` makes all values constants, and fewer nodes need fewer";
+    Diagnostic::warning("ST0301", message, place).help(help)
 }
 
 /// The names of the graphs, for the first line of the text.

@@ -118,7 +118,8 @@ pub struct Diagnostic {
 impl Diagnostic {
     /// An error.
     pub fn error(code: &'static str, message: impl Into<String>, place: Place) -> Self {
-        Self { code, severity: Severity::Error, message: message.into(), place, help: None, notes: Vec::new() }
+        let message = bounded(message.into());
+        Self { code, severity: Severity::Error, message, place, help: None, notes: Vec::new() }
     }
 
     /// A warning.
@@ -129,16 +130,51 @@ impl Diagnostic {
     /// The same diagnostic with a remedy.
     #[must_use]
     pub fn help(mut self, help: impl Into<String>) -> Self {
-        self.help = Some(help.into());
+        self.help = Some(bounded(help.into()));
         self
     }
 
     /// The same diagnostic with one more line of detail.
     #[must_use]
     pub fn note(mut self, note: impl Into<String>) -> Self {
-        self.notes.push(note.into());
+        self.notes.push(bounded(note.into()));
         self
     }
+}
+
+/// Longest text of a diagnostic in bytes: a name of a megabyte must not bury what is said about it.
+const LONGEST_TEXT: usize = 4000;
+
+/// The text, cut where it is too long to be read.
+fn bounded(mut text: String) -> String {
+    if text.len() > LONGEST_TEXT {
+        let mut end = LONGEST_TEXT;
+        while !text.is_char_boundary(end) {
+            end -= 1;
+        }
+        text.truncate(end);
+        text.push_str(" ...");
+    }
+    text
+}
+
+/// At most `most` errors and as many warnings. Where some are left out, `rest` is the last, as an error or a warning.
+pub fn limited(found: Vec<Diagnostic>, most: usize, rest: &Diagnostic) -> Vec<Diagnostic> {
+    let mut kept = Vec::new();
+    let (mut errors, mut warnings) = (0, 0);
+    for diagnostic in found {
+        let count = if diagnostic.severity == Severity::Error { &mut errors } else { &mut warnings };
+        *count += 1;
+        if *count <= most {
+            kept.push(diagnostic);
+        }
+    }
+    for (count, severity) in [(warnings, Severity::Warning), (errors, Severity::Error)] {
+        if count > most {
+            kept.push(Diagnostic { severity, ..rest.clone() });
+        }
+    }
+    kept
 }
 
 /// Whether any of them is an error.

@@ -134,7 +134,7 @@ const WEAVE: &[(&str, &str, &str)] = &[
     (
         "ST0301",
         "The parameters do not fit into one uniform block.",
-        "Every device takes 64 KiB, which is some 4,000 values. `--bake` writes values into the shader instead; they can\nthen not change without a new shader.",
+        "Every device takes 64 KiB, which is some 4,000 values. Beyond that the values that no one changed are written into\nthe shader as constants, then all values; they can then not change without a new shader.",
     ),
 ];
 
@@ -216,6 +216,11 @@ const OWN: &[(&str, &str, &str)] = &[
     ("ST0517", "There is no such code.", "`shadetree explain` without a code lists all of them."),
     ("ST0518", "A file is not in canonical form.", "`shadetree fmt FILE` rewrites it. Its meaning does not change."),
     ("ST0519", "Changes of files cannot be watched.", "The system's limit of watched folders may be reached."),
+    (
+        "ST0520",
+        "A picture that a node names cannot be read.",
+        "PNG, JPEG and HDR files can be used. The ending of the name does not matter, the content does.",
+    ),
     (
         "ST0900",
         "naga rejects the WGSL that was woven.",

@@ -76,7 +76,11 @@ fn quote(wgsl: &str, range: &Range<usize>, said: &str) -> String {
     let start = before.rfind('\n').map_or(0, |i| i + 1);
     let number = before.matches('\n').count() + 1;
     let line = wgsl[start..].lines().next().unwrap_or_default().trim();
-    let said = if said.is_empty() { String::new() } else { format!(" ({said})") };
+    let said = if said.is_empty() || said == "see msg" || said.starts_with("naga::") {
+        String::new()
+    } else {
+        format!(" ({said})")
+    };
     format!("WGSL line {number}: {line}{said}")
 }
 

@@ -141,3 +141,22 @@ fn layers_are_lit_as_what_lies_under_them() {
         "{body}"
     );
 }
+
+/// What fed a muted node feeds what it fed, through any number of them.
+#[test]
+fn muted_nodes_are_passed_over() {
+    let text = |muted: &str, link: &str| {
+        format!(
+            r#"Graph(version: 1, nodes: {{
+                "spot": (kind: "spot_light"), "vsm": (kind: "variance_shadow"{muted}), "pcf": (kind: "pcf_shadow"{muted}),
+                "matte": (kind: "lambert"),
+            }}, links: [{link}])"#
+        )
+    };
+    let all = r#""spot -> vsm", "vsm -> pcf", "pcf -> matte""#;
+    let muted = graph_text("muted", &SourceText::new("muted.ron", text(", muted: true", all)));
+    let plain = graph_text("muted", &SourceText::new("muted.ron", text(", muted: true", r#""spot -> matte""#)));
+    let wgsl = compiled(&[muted], &Options::default()).module.wgsl;
+    assert_eq!(wgsl, compiled(&[plain], &Options::default()).module.wgsl);
+    assert!(!wgsl.contains("shadow") && wgsl.contains("spot.irradiance"), "{wgsl}");
+}

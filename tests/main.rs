@@ -1,8 +1,10 @@
 //! All tests that use the package from outside, in one binary.
 #![allow(unreachable_pub, reason = "modules of one test binary see each other")]
 
+mod cli;
 mod errors;
 mod graphs;
+mod hostile;
 #[cfg(feature = "render")]
 mod images;
 #[cfg(feature = "render")]

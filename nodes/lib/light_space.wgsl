@@ -18,6 +18,8 @@ struct ReceiverPlane {
     distance: f32,
     /// Change over the whole map: of distance in metres (parallel) or of 1 / distance relative to here (perspective).
     slope: vec2f,
+    /// Distance per metre across, at the shaded point.
+    rise: vec2f,
 }
 
 /// Steepest rise of a surface away from the light, in metres per metre across, that is followed beyond the shaded point
@@ -30,8 +32,11 @@ const MAX_RETREAT: f32 = 8.0;
 const MIN_RECEIVER_COSINE: f32 = 0.015625;
 
 /// Facets that meet at up to this angle (radians, 7 degrees: 51 around a circle) count as one curved surface, which does
-/// not shadow itself. What it costs is small: an occluder must be nearer by this part of the kernel's half width.
+/// not shadow itself. Seen by the light straight on, an occluder must for that be nearer by this part of the kernel's half
+/// width; at grazing light by more, as one angle is more depth there, but no more than the shadow's edge is wide.
 const MAX_FOLD: f32 = 0.125;
+/// What grazing light multiplies that by at most: reached at 69 degrees.
+const MAX_FOLD_DEPTH: f32 = 8.0;
 
 /// A world point in light coordinates, metres.
 fn light_position(space: LightSpace, point: vec3f) -> vec3f {
@@ -78,7 +83,7 @@ fn receiver_plane(space: LightSpace, position: vec3f, normal: vec3f) -> Receiver
     // A normal of length zero says nothing about the plane: it counts as facing the light.
     let bounded = max(max(abs(facing), least), 1e-30) * select(1.0, -1.0, facing < 0.0);
     let ray_per_uv = vec2f(2.0, -2.0) / space.projection.xy;
-    return ReceiverPlane(light_map_uv(space, position), position.z, n.xy * ray_per_uv / bounded);
+    return ReceiverPlane(light_map_uv(space, position), position.z, n.xy * ray_per_uv / bounded, n.xy / bounded);
 }
 
 /// Linear depth, clamped to [0, 1], where the light's ray through `uv` meets the plane. Exact for both projections, up to the
@@ -110,7 +115,9 @@ fn receiver_rounding(slope_per_texel: vec2f) -> f32 {
 /// `texels` away on a map of `size`. Without it the inner side of a ring shows its facets as ribs.
 fn receiver_curvature(space: LightSpace, plane: ReceiverPlane, size: vec2f, texels: f32) -> f32 {
     let texel = 2.0 / (space.projection.xy * size) * select(1.0, plane.distance, space.projection.z > 0.5);
-    return MAX_FOLD * texels * max(texel.x, texel.y) * space.depth.z;
+    // The rise of a plane per metre across is the tangent of its angle, whose derivative is 1 + tangent^2.
+    let steep = dot(plane.rise, plane.rise);
+    return MAX_FOLD * min(1.0 + steep, MAX_FOLD_DEPTH) * texels * max(texel.x, texel.y) * space.depth.z;
 }
 
 /// Normal of the surface as it is drawn, from neighbouring pixels; not normalised, either side. Shading normals do not

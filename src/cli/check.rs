@@ -4,6 +4,7 @@ use std::path::PathBuf;
 
 use clap::Args;
 
+use super::assets;
 use super::context::Context;
 use super::exit::{Exit, Outcome};
 use super::load::Loader;
@@ -38,18 +39,27 @@ impl Check {
     fn once(&self, context: &Context, loader: &Loader) -> Outcome {
         let (catalog, found) = loader.catalog(&self.nodes)?;
         // Here the person asks about everything, so a broken node file counts.
-        let broken = context.report(&found);
-        let weaver = Weaver { context, loader, catalog: &catalog, options: Options::default(), set: &[] };
+        let mut broken = context.report(&found);
+        let weaver = Weaver { context, loader, catalog: &catalog, options: Options::default(), set: &[], images: true };
         let shaders = match weaver.read(&self.files)? {
             Input::Graphs(graphs) => vec![weaver.weave_graphs(graphs)?],
-            Input::Scene(scene, file) => weaver.weave_scene(&scene, &file)?,
+            Input::Scene(scene, file) => {
+                // Everything is looked at before giving up.
+                let shaders = weaver.weave_scene(&scene, &file);
+                let meshes = assets::each_mesh(&scene, &file, loader, drop);
+                let surroundings = assets::environment_image(&scene.environment, &file, loader);
+                for failure in [meshes.err(), surroundings.err()].into_iter().flatten() {
+                    broken |= context.report(&failure.diagnostics);
+                }
+                shaders?
+            }
         };
         if context.is_json() {
             let summary = serde_json::json!({ "schema": 1, "ok": !broken, "shaders": shaders.len() });
             output::print(format!("{summary}\n").as_bytes())?;
         }
         if broken {
-            return Ok(Exit::Input);
+            return Err(Vec::new().into());
         }
         context.say(&format!("no errors; {} shader{}", shaders.len(), if shaders.len() == 1 { "" } else { "s" }));
         Ok(Exit::Done)

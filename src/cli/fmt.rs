@@ -35,7 +35,8 @@ impl Fmt {
                 context.report(&failure.diagnostics);
                 failure.exit
             });
-            if result != Exit::Done {
+            // The gravest is the answer, whatever the order of the files.
+            if result as u8 > exit as u8 {
                 exit = result;
             }
         }

@@ -78,8 +78,14 @@ impl Language {
 impl Generate {
     pub(super) fn run(&self, context: &Context) -> Outcome {
         let target = self.target()?;
-        if target.is_binary() && output::is_dash(&self.output) {
-            output::refuse_terminal("SPIR-V")?;
+        if output::is_dash(&self.output) {
+            if self.reflect.as_deref().is_some_and(output::is_dash) {
+                let message = "--reflect and the shader cannot both go to stdout";
+                return Err(Failure::usage(message, "name a file with -o or with --reflect"));
+            }
+            if target.is_binary() {
+                output::refuse_terminal("SPIR-V")?;
+            }
         }
         watch(context, self.watch, &self.files, |loader| self.once(context, loader, target))
     }
@@ -108,7 +114,7 @@ impl Generate {
         context.report(&found);
         let options = Options { bake: self.bake, ..Options::default() };
         let set = overrides(&self.set, &self.option);
-        let weaver = Weaver { context, loader, catalog: &catalog, options, set: &set };
+        let weaver = Weaver { context, loader, catalog: &catalog, options, set: &set, images: false };
         let shaders = match weaver.read(&self.files)? {
             Input::Graphs(graphs) => vec![weaver.weave_graphs(graphs)?],
             Input::Scene(scene, file) => weaver.weave_scene(&scene, &file)?,
@@ -118,29 +124,38 @@ impl Generate {
             let files = export(&shader.verified, &shader.compiled.module.wgsl, target);
             parts.push(files.map_err(|d| vec![d])?);
         }
-        if let Some(path) = &self.reflect {
-            output::write(path, reflection(&shaders).as_bytes())?;
-        }
-        // Everything is made before anything is written, so that a failure leaves the last good output.
         let files: Vec<_> =
             shaders.iter().zip(&parts).flat_map(|(s, files)| files.iter().map(move |f| (s, f))).collect();
+        let mut outputs: Vec<(PathBuf, Vec<u8>)> = Vec::new();
         if output::is_dash(&self.output) {
             if target.is_binary() && files.len() > 1 {
                 return Err(Failure::usage("several binary modules cannot share stdout", "name a file with -o"));
             }
+            let mut text = Vec::new();
             for (shader, file) in &files {
                 if files.len() > 1 {
                     let objects = shader.objects.join(", ");
-                    output::print(format!("// ---- {objects} {}\n", file.extension).as_bytes())?;
+                    text.extend(format!("// ---- {objects} {}\n", file.extension).into_bytes());
                 }
-                output::print(&file.bytes)?;
+                text.extend(&file.bytes);
             }
-            return Ok(Exit::Done);
+            outputs.push((self.output.clone(), text));
+        } else {
+            let several = shaders.len() > 1;
+            for (shader, file) in &files {
+                let path = self.path(several.then(|| shader.objects.join("+")).as_deref(), file.extension);
+                // Long lists of objects are cut, and may begin alike.
+                let path = (1..).map(|n| numbered(&path, n)).find(|p| outputs.iter().all(|o| o.0 != *p));
+                outputs.extend(path.map(|p| (p, file.bytes.clone())));
+            }
         }
-        let several = shaders.len() > 1;
-        for (shader, file) in &files {
-            let path = self.path(several.then(|| shader.objects.join("+")).as_deref(), file.extension);
-            output::write(&path, &file.bytes)?;
+        if let Some(path) = &self.reflect {
+            outputs.push((path.clone(), reflection(&shaders).into_bytes()));
+        }
+        // Everything is made before anything is written, so that a failure leaves the last good output.
+        let all: Vec<(&Path, &[u8])> = outputs.iter().map(|(p, b)| (p.as_path(), b.as_slice())).collect();
+        output::write_all(&all)?;
+        for (path, _) in all.iter().filter(|(path, _)| !output::is_dash(path)) {
             context.detail(&format!("wrote {}", path.display()));
         }
         Ok(Exit::Done)
@@ -160,6 +175,16 @@ impl Generate {
         let own = self.output.extension().map_or_else(|| extension.to_owned(), |e| e.to_string_lossy().into_owned());
         self.output.parent().unwrap_or(Path::new("")).join(format!("{name}.{own}"))
     }
+}
+
+/// The path itself, or the `n`th with a number before its extension.
+fn numbered(path: &Path, n: usize) -> PathBuf {
+    if n == 1 {
+        return path.to_path_buf();
+    }
+    let stem = path.file_stem().unwrap_or_default().to_string_lossy();
+    let extension = path.extension().unwrap_or_default().to_string_lossy();
+    path.with_file_name(format!("{stem}.{n}.{extension}"))
 }
 
 /// One reflection, or for a scene a list with the objects of each.

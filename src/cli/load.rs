@@ -1,15 +1,16 @@
 //! From file names to graphs and scenes. Every file that is read is remembered, so that `--watch` knows what to watch.
 
-use std::cell::RefCell;
-use std::collections::BTreeSet;
+use std::cell::{Cell, RefCell};
+use std::collections::{BTreeMap, BTreeSet};
 use std::io::Read;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
+use std::time::SystemTime;
 
 use super::exit::{Exit, Failure};
 use super::output::is_dash;
 use crate::compile::NamedGraph;
-use crate::diagnostic::{Diagnostic, Place, SourceText, has_errors};
+use crate::diagnostic::{Diagnostic, Place, SourceText, Span, has_errors};
 use crate::graph::{self, Graph};
 use crate::node::Catalog;
 use crate::ron::MAX_BYTES;
@@ -32,19 +33,51 @@ pub(super) enum Document {
 /// Reads files and collects what is wrong with them.
 #[derive(Debug, Default)]
 pub(super) struct Loader {
-    touched: RefCell<BTreeSet<PathBuf>>,
+    touched: RefCell<BTreeMap<PathBuf, Option<Stamp>>>,
     found: RefCell<Vec<Diagnostic>>,
+    unreadable: Cell<bool>,
+}
+
+/// What tells that a file or folder has changed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct Stamp {
+    length: u64,
+    modified: Option<SystemTime>,
+}
+
+impl Stamp {
+    /// None where there is nothing.
+    pub(super) fn of(path: &Path) -> Option<Self> {
+        let meta = std::fs::metadata(path).ok()?;
+        // The time of a folder also tells of strangers in it, so what is in it is watched file by file.
+        let modified = if meta.is_dir() { None } else { meta.modified().ok() };
+        Some(Self { length: if meta.is_dir() { 0 } else { meta.len() }, modified })
+    }
 }
 
 impl Loader {
-    /// Files read so far.
-    pub(super) fn touched(&self) -> BTreeSet<PathBuf> {
+    /// Files and folders read so far, or looked for, each as it was just before.
+    pub(super) fn touched(&self) -> BTreeMap<PathBuf, Option<Stamp>> {
         self.touched.borrow().clone()
+    }
+
+    /// Whether some file could not be read.
+    pub(super) fn is_unreadable(&self) -> bool {
+        self.unreadable.get()
+    }
+
+    fn touch(&self, path: &Path) {
+        self.touched.borrow_mut().insert(path.to_path_buf(), Stamp::of(path));
     }
 
     /// Takes the diagnostics so far.
     pub(super) fn take_found(&self) -> Vec<Diagnostic> {
         std::mem::take(&mut self.found.borrow_mut())
+    }
+
+    /// Adds one more.
+    pub(super) fn add(&self, diagnostic: Diagnostic) {
+        self.found.borrow_mut().push(diagnostic);
     }
 
     fn keep<T>(&self, (value, found): (Option<T>, Vec<Diagnostic>)) -> Option<T> {
@@ -57,10 +90,12 @@ impl Loader {
     pub(super) fn bytes(&self, path: &Path) -> Result<Vec<u8>, Failure> {
         let name = path.display().to_string();
         let fail = |code, exit, message: String, help: &str| {
+            self.unreadable.set(self.unreadable.get() || exit == Exit::Io);
             Failure::new(exit, Diagnostic::error(code, message, Place::file(&*name)).help(help))
         };
         let unreadable = |e: std::io::Error| {
-            fail("ST0501", Exit::Io, format!("cannot read: {e}"), "check the path and its permissions")
+            let message = format!("cannot read {name}: {e}");
+            fail("ST0501", Exit::Io, message, "check the path and its permissions")
         };
         let too_large = || {
             let message = format!("the file is larger than {} MiB", MAX_BYTES >> 20);
@@ -72,10 +107,11 @@ impl Loader {
         if is_dash(path) {
             std::io::stdin().lock().take(limit).read_to_end(&mut bytes).map_err(unreadable)?;
         } else {
-            self.touched.borrow_mut().insert(path.to_path_buf());
+            self.touch(path);
             let meta = std::fs::metadata(path).map_err(unreadable)?;
             if meta.is_dir() {
-                return Err(fail("ST0502", Exit::Io, "this is a folder, not a file".into(), "name the files in it"));
+                let message = format!("{name} is a folder, not a file");
+                return Err(fail("ST0502", Exit::Io, message, "name the files in it"));
             }
             if meta.len() > MAX_BYTES as u64 {
                 return Err(too_large());
@@ -131,21 +167,27 @@ impl Loader {
     }
 
     /// Reads and flattens a graph file under a name. None if it has errors, which are kept.
-    pub(super) fn named_graph(&self, path: &Path, name: &str) -> Option<NamedGraph> {
+    /// `mentioned` is where a scene names the file.
+    pub(super) fn named_graph(&self, path: &Path, name: &str, mentioned: Option<&Span>) -> Option<NamedGraph> {
+        let here = |mut diagnostic: Diagnostic| {
+            if let (None, Some(span)) = (&diagnostic.place.span, mentioned) {
+                diagnostic.place = Place::span(span.clone());
+            }
+            diagnostic
+        };
         let read = self.document(path);
         let graph = match read {
             Ok(Some(Document::Graph(graph))) => graph,
             Ok(Some(Document::Scene(_))) => {
                 let place = Place::file(path.display().to_string());
-                let message = "this is a scene, but a graph is needed here";
-                self.found
-                    .borrow_mut()
-                    .push(Diagnostic::error("ST0507", message, place).help("name a `Graph(...)` file"));
+                let message = format!("{} is a scene, but a graph is needed here", path.display());
+                let error = Diagnostic::error("ST0507", message, place).help("name a `Graph(...)` file");
+                self.found.borrow_mut().push(here(error));
                 return None;
             }
             Ok(None) => return None,
             Err(failure) => {
-                self.found.borrow_mut().extend(failure.diagnostics);
+                self.found.borrow_mut().extend(failure.diagnostics.into_iter().map(here));
                 return None;
             }
         };
@@ -177,8 +219,13 @@ impl Loader {
     fn wgsl_files(&self, folder: &Path) -> Result<Vec<PathBuf>, Failure> {
         let mut files = Vec::new();
         let mut open = vec![(folder.to_path_buf(), 0)];
+        let mut seen = BTreeSet::new();
         while let Some((folder, depth)) = open.pop() {
-            self.touched.borrow_mut().insert(folder.clone());
+            // Links may lead back to where they are.
+            if !seen.insert(canonical(&folder)) {
+                continue;
+            }
+            self.touch(&folder);
             let unreadable = |e: std::io::Error| {
                 let place = Place::file(folder.display().to_string());
                 let diagnostic = Diagnostic::error("ST0501", format!("cannot read the folder: {e}"), place);

@@ -2,6 +2,7 @@
 //!
 //! stdout is data, stderr is messages and progress, `-` is stdin or stdout. Exit codes: see [`Exit`].
 
+mod assets;
 mod check;
 mod completions;
 mod context;

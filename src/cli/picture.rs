@@ -1,9 +1,10 @@
 //! One picture: geometry and surroundings of the scene, shaders, the job, the file.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
+use super::assets::{each_mesh, environment_image, picture};
 use super::context::Context;
 use super::exit::{Exit, Failure, Outcome};
 use super::load::{Document, Loader, relative};
@@ -15,7 +16,7 @@ use super::weave::{Input, Shader, Weaver};
 use crate::compile::{NamedGraph, Options, Output};
 use crate::diagnostic::{Diagnostic, Place};
 use crate::render::{self, ColorFormat, Draw, Gpu, Job, Picture, RenderError, Surroundings, SurroundingsLevel, Texels};
-use crate::scene::{self, Environment, Mesh, Scene, Shape, environment};
+use crate::scene::{Environment, Scene, environment};
 
 pub(super) fn once(command: &Render, context: &Context, loader: &Loader, gpu: &mut Option<Gpu>) -> Outcome {
     let (catalog, found) = loader.catalog(&command.nodes)?;
@@ -25,9 +26,10 @@ pub(super) fn once(command: &Render, context: &Context, loader: &Loader, gpu: &m
         options.output = output.clone();
     }
     let set = overrides(&command.set, &command.option);
-    let weaver = Weaver { context, loader, catalog: &catalog, options, set: &set };
+    let weaver = Weaver { context, loader, catalog: &catalog, options, set: &set, images: true };
     let (scene, file, shaders) = shaders(command, &weaver)?;
-    let meshes = meshes(&scene, &file, loader)?;
+    let mut meshes = Vec::new();
+    each_mesh(&scene, &file, loader, |mesh| meshes.push(mesh))?;
     let surroundings = surroundings(&scene.environment, &file, loader)?;
     let mut draws = Vec::new();
     for (object, mesh) in scene.objects.iter().zip(&meshes) {
@@ -90,12 +92,26 @@ fn draw(command: &Render, context: &Context, job: &Job<'_>, gpu: &mut Option<Gpu
         None => gpu.insert(Gpu::new(&adapter_options(command.adapter.as_deref()))?),
     };
     if let Aov::Map(light) = &command.aov {
-        let map = gpu.map(job, light, 0)?;
+        let map = gpu.map(job, &full_name(job, light), 0)?;
         return Ok((map.size, map.pixels, gpu.adapter().name.clone(), map.messages));
     }
     let frame = gpu.render(job)?;
     frame.timing_table().iter().for_each(|line| context.detail(line));
     Ok((frame.size, frame.pixels, frame.adapter.name, frame.messages))
+}
+
+/// The name that plans have for a light that a person calls by all of it, by its graph, or by its node.
+fn full_name(job: &Job<'_>, light: &str) -> String {
+    let lights: BTreeSet<&str> =
+        job.draws.iter().flat_map(|d| &d.shader.plan.lights).map(|l| l.name.as_str()).collect();
+    let only = |test: &dyn Fn(&str) -> bool| {
+        let mut found = lights.iter().filter(|name| test(name));
+        found.next().filter(|_| found.next().is_none())
+    };
+    let found = only(&|n| n == light)
+        .or_else(|| only(&|n| n.split_once('/').is_some_and(|(graph, _)| graph == light)))
+        .or_else(|| only(&|n| n.rsplit('/').next() == Some(light)));
+    found.map_or_else(|| light.to_owned(), |name| (*name).to_owned())
 }
 
 /// The scene, the file that its paths count from, and a shader for each of its objects.
@@ -166,29 +182,8 @@ fn on_stage(mut graphs: Vec<NamedGraph>, weaver: &Weaver<'_>) -> Result<(Scene, 
     Ok((stage.scene, "stage.ron".into(), shaders))
 }
 
-fn meshes(scene: &Scene, file: &Path, loader: &Loader) -> Result<Vec<Mesh>, Failure> {
-    let mut meshes = Vec::new();
-    for object in &scene.objects {
-        meshes.push(match &object.shape {
-            Shape::Obj(reference) => {
-                let source = loader.text(&relative(&reference.path, &file.display().to_string()))?;
-                scene::from_obj(&source)?
-            }
-            shape => shape.mesh().unwrap_or_default(),
-        });
-    }
-    Ok(meshes)
-}
-
 fn surroundings(of: &Environment, file: &Path, loader: &Loader) -> Result<Surroundings, Failure> {
-    let image = match of {
-        Environment::Image { image, .. } => {
-            let bytes = loader.bytes(&relative(&image.path, &file.display().to_string()))?;
-            let place = image.span.clone().map_or_else(|| Place::file(&*image.path), Place::span);
-            Some(environment::decode(&bytes, &place).map_err(|d| vec![*d])?)
-        }
-        _ => None,
-    };
+    let image = environment_image(of, file, loader)?;
     let map = environment::Map::new(of, image.as_ref());
     let level = |l: environment::Level| SurroundingsLevel { width: l.width, height: l.height, pixels: l.pixels };
     let levels = map.levels.into_iter().map(level).collect();
@@ -199,14 +194,7 @@ fn surroundings(of: &Environment, file: &Path, loader: &Loader) -> Result<Surrou
 fn image(loader: &Loader, path: &str, base: &str) -> Result<Picture, String> {
     let first = |f: Failure| f.diagnostics.first().map_or_else(String::new, |d| d.message.clone());
     let bytes = loader.bytes(&relative(path, base)).map_err(first)?;
-    let mut reader =
-        image::ImageReader::new(std::io::Cursor::new(bytes)).with_guessed_format().map_err(|e| e.to_string())?;
-    let mut limits = image::Limits::default();
-    limits.max_image_width = Some(16_384);
-    limits.max_image_height = Some(16_384);
-    limits.max_alloc = Some(1 << 30);
-    reader.limits(limits);
-    let decoded = reader.decode().map_err(|e| e.to_string())?;
+    let decoded = picture(bytes)?.decode().map_err(|e| e.to_string())?;
     let (width, height) = (decoded.width(), decoded.height());
     let texels = match decoded {
         image::DynamicImage::ImageRgb32F(_) | image::DynamicImage::ImageRgba32F(_) => {

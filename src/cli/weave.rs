@@ -3,14 +3,16 @@
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
+use super::assets::check_images;
 use super::context::Context;
 use super::exit::Failure;
 use super::load::{Document, Loader, relative, stems};
 use super::settings::{self, Assignment};
-use crate::compile::{Compiled, NamedGraph, Options, compile};
-use crate::diagnostic::{Diagnostic, Place, has_errors};
+use crate::compile::{Compiled, NamedGraph, Options, compile, locate};
+use crate::diagnostic::{Diagnostic, Place, did_you_mean, has_errors};
+use crate::graph;
 use crate::node::Catalog;
-use crate::scene::{FileReference, Scene, Settings};
+use crate::scene::{FileReference, Scene, Setting, Settings};
 use crate::verify::{Verified, verify};
 
 /// A shader that naga accepted.
@@ -38,6 +40,8 @@ pub(super) struct Weaver<'a> {
     pub(super) catalog: &'a Catalog,
     pub(super) options: Options,
     pub(super) set: &'a [Assignment],
+    /// Whether the pictures that shaders read must be there.
+    pub(super) images: bool,
 }
 
 impl Weaver<'_> {
@@ -93,7 +97,13 @@ impl Weaver<'_> {
             return (None, found);
         };
         match verify(&compiled.module) {
-            Ok(verified) => (Some(Shader { objects, compiled, verified }), found),
+            Ok(verified) => {
+                if self.images {
+                    found.extend(check_images(&compiled.module, graphs, self.loader));
+                }
+                let shader = Shader { objects, compiled, verified };
+                (Some(shader).filter(|_| !has_errors(&found)), found)
+            }
             Err(errors) => {
                 if self.context.verbose > 0 {
                     self.context.detail(&compiled.module.wgsl);
@@ -111,14 +121,17 @@ impl Weaver<'_> {
     }
 
     /// The light graphs of a scene, named as the scene names its lights.
+    #[cfg(feature = "render")]
     pub(super) fn lights(&self, scene: &Scene, file: &Path) -> Result<Vec<NamedGraph>, Failure> {
         let lights: Vec<_> = scene.lights.iter().map(|l| self.mentioned(&l.graph, &l.name, &l.set, file)).collect();
-        self.finish(lights)
+        let failed = self.context.report(&self.loader.take_found());
+        let all: Option<Vec<NamedGraph>> = lights.into_iter().collect();
+        all.filter(|_| !failed).ok_or_else(|| Vec::new().into())
     }
 
     /// The shaders of a scene's objects, equal ones once, in the order of the objects.
     pub(super) fn weave_scene(&self, scene: &Scene, file: &Path) -> Result<Vec<Shader>, Failure> {
-        let lights = self.lights(scene, file)?;
+        let lights: Vec<_> = scene.lights.iter().map(|l| self.mentioned(&l.graph, &l.name, &l.set, file)).collect();
         let mut surfaces: Vec<(String, Vec<NamedGraph>, Vec<String>)> = Vec::new();
         for object in &scene.objects {
             // Overrides decide with the path whether two objects have the same shader with the same values.
@@ -130,16 +143,20 @@ impl Weaver<'_> {
             }
             let stem = stems(&[PathBuf::from(&object.surface.path)]).remove(0);
             // A light may have the name of the surface's file.
-            let name = if lights.iter().any(|l| l.name == stem) { format!("surface {stem}") } else { stem };
+            let taken = scene.lights.iter().any(|l| l.name == stem);
+            let name = if taken { format!("surface {stem}") } else { stem };
             let surface = self.mentioned(&object.surface, &name, &object.set, file);
             surfaces.push((key, surface.into_iter().collect(), vec![object.name.clone()]));
         }
-        if self.context.report(&self.loader.take_found()) {
+        let mut failed = self.context.report(&self.loader.take_found());
+        // Without one of its lights every surface would be told to lack it.
+        let Some(lights) = lights.into_iter().collect::<Option<Vec<NamedGraph>>>() else {
             return Err(Vec::new().into());
-        }
+        };
+        // The surfaces that could be read may have mistakes of their own.
+        surfaces.retain(|(_, surface, _)| !surface.is_empty());
         let mut shaders = Vec::new();
         let mut shown: Vec<Diagnostic> = Vec::new();
-        let mut failed = false;
         let mut unused = self.set.to_vec();
         for (_, surface, objects) in surfaces {
             let mut graphs = lights.clone();
@@ -172,29 +189,25 @@ impl Weaver<'_> {
     /// A graph that a scene mentions. None if it cannot be used; then why is kept.
     fn mentioned(&self, file: &FileReference, name: &str, set: &Settings, scene: &Path) -> Option<NamedGraph> {
         let path = relative(&file.path, &scene.display().to_string());
-        let mut graph = self.loader.named_graph(&path, name)?;
-        graph.set = set.iter().map(|(path, setting)| (path.clone(), setting.value.clone())).collect();
+        let mut graph = self.loader.named_graph(&path, name, file.span.as_ref())?;
+        for (path, Setting { value, span }) in set {
+            graph.set.insert(path.clone(), value.clone());
+            // What is wrong with the value is wrong in the scene, and a path counts from there.
+            let (Some(span), Some((node, port))) = (span, path.rsplit_once('.')) else { continue };
+            let Some(target) = graph.graph.nodes.get_mut(node) else {
+                let message = format!("`{path}` cannot be set: {} has no node `{node}`", file.path);
+                let names: Vec<&str> = graph.graph.nodes.keys().map(String::as_str).collect();
+                let help = match did_you_mean(node, names.iter().copied()) {
+                    Some(near) => format!("did you mean `{near}`?"),
+                    None => format!("its nodes are {}", names.join(", ")),
+                };
+                self.loader.add(Diagnostic::error("ST0207", message, Place::span(span.clone())).help(help));
+                graph.set.remove(path);
+                continue;
+            };
+            target.spans.params.insert(port.to_owned(), span.clone());
+            target.spans.names.insert((graph::Setting::Param, port.to_owned()), span.clone());
+        }
         Some(graph)
     }
-
-    fn finish(&self, graphs: Vec<Option<NamedGraph>>) -> Result<Vec<NamedGraph>, Failure> {
-        let failed = self.context.report(&self.loader.take_found());
-        let all: Option<Vec<NamedGraph>> = graphs.into_iter().collect();
-        all.filter(|_| !failed).ok_or_else(|| Vec::new().into())
-    }
-}
-
-/// Adds the file and line of the node that a rejected line of WGSL came from.
-fn locate(mut diagnostic: Diagnostic, graphs: &[NamedGraph]) -> Diagnostic {
-    let Some(full) = diagnostic.place.node.clone() else { return diagnostic };
-    for named in graphs {
-        let node = full.strip_prefix(&format!("{}/", named.name)).unwrap_or(&full);
-        if named.graph.nodes.contains_key(node) {
-            let Place { span, file, .. } = named.graph.place(node);
-            diagnostic.place.span = span;
-            diagnostic.place.file = file;
-            break;
-        }
-    }
-    diagnostic
 }

@@ -1,6 +1,6 @@
 //! Names in generated text: sanitised, never reserved, each used once.
 
-use std::collections::HashSet;
+use std::collections::{HashMap, HashSet};
 
 use crate::node::is_reserved;
 
@@ -8,6 +8,8 @@ use crate::node::is_reserved;
 #[derive(Default)]
 pub(crate) struct Names {
     used: HashSet<String>,
+    /// The number to try next for a name that is taken.
+    next: HashMap<String, usize>,
 }
 
 impl Names {
@@ -22,13 +24,13 @@ impl Names {
         if !is_taken_by_wgsl(&base) && self.claim(&base) {
             return base;
         }
-        let mut count = 2_usize;
         loop {
+            let count = self.next.entry(base.clone()).or_insert(1);
+            *count += 1;
             let name = format!("{base}_{count}");
-            if self.claim(&name) {
+            if self.used.insert(name.clone()) {
                 return name;
             }
-            count += 1;
         }
     }
 }

@@ -20,7 +20,7 @@ pub(super) fn push(found: &mut Vec<Diagnostic>, diagnostic: Diagnostic, file: Pl
         found.push(diagnostic);
     } else if found.len() == MAX_REPORTED {
         let message = format!("more than {MAX_REPORTED} mistakes; the rest are not listed");
-        found.push(Diagnostic::error("ST0066", message, file));
+        found.push(Diagnostic::error("ST0066", message, file).help("correct these first"));
     }
 }
 

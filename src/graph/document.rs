@@ -247,19 +247,20 @@ impl Graph {
     /// Where a node says its kind or its subgraph; otherwise where the node is.
     pub fn kind_place(&self, node: &str) -> Place {
         let spans = self.nodes.get(node).map(|n| &n.spans);
-        self.place_at(node, spans.and_then(|s| s.kind.as_ref().or(s.whole.as_ref())))
+        self.place_at(node, spans.and_then(|s| s.kind.as_ref().or(s.name.as_ref()).or(s.whole.as_ref())))
     }
 
     /// Where the value of a parameter was written; otherwise where the node is.
     pub fn param_place(&self, node: &str, param: &str) -> Place {
         let spans = self.nodes.get(node).map(|n| &n.spans);
-        self.place_at(node, spans.and_then(|s| s.params.get(param).or(s.whole.as_ref()))).port(param)
+        self.place_at(node, spans.and_then(|s| s.params.get(param).or(s.name.as_ref()).or(s.whole.as_ref())))
+            .port(param)
     }
 
     /// Where the value of an option was written; otherwise where the node is.
     pub fn option_place(&self, node: &str, option: &str) -> Place {
         let spans = self.nodes.get(node).map(|n| &n.spans);
-        self.place_at(node, spans.and_then(|s| s.options.get(option).or(s.whole.as_ref())))
+        self.place_at(node, spans.and_then(|s| s.options.get(option).or(s.name.as_ref()).or(s.whole.as_ref())))
     }
 
     /// Where the name of a parameter or option was written; otherwise where the node is.

@@ -54,8 +54,8 @@ struct Expander {
     stands: BTreeMap<String, Stand>,
     /// Full names of the stands, outer before inner.
     order: Vec<String>,
-    /// Links in full names, whose ends may be stands.
-    links: Vec<(Link, Place)>,
+    /// Links in full names, whose ends may be stands, and where each end is written.
+    links: Vec<(Link, [Place; 2])>,
     loaded: BTreeMap<(String, String), Option<Loaded>>,
     text: usize,
     found: Vec<Diagnostic>,
@@ -130,7 +130,7 @@ impl Expander {
             let mut moved = link.clone();
             moved.from.node.insert_str(0, prefix);
             moved.to.node.insert_str(0, prefix);
-            self.links.push((moved, graph.link_place(link)));
+            self.links.push((moved, [true, false].map(|from| graph.end_place(link, from, true))));
         }
         Some(())
     }
@@ -184,11 +184,11 @@ impl Expander {
             router.settings(full);
         }
         let mut links: BTreeMap<(End, End), Link> = BTreeMap::new();
-        for (link, place) in self.links {
-            let Some(from) = router.output(link.from.clone(), &place) else {
+        for (link, [start, end]) in self.links {
+            let Some(from) = router.output(link.from.clone(), &start) else {
                 continue;
             };
-            for to in router.inputs(link.to.clone(), &place) {
+            for to in router.inputs(link.to.clone(), &end) {
                 let ends = (from.clone(), to.clone());
                 links.entry(ends).or_insert_with(|| Link { from: from.clone(), to, ..link.clone() });
             }
@@ -198,14 +198,14 @@ impl Expander {
                 return (None, self.found);
             }
         }
-        let place = root.file_place();
+        let place = root.output_place();
         let output = match &root.output {
             Some(output) => Some(output.clone()),
             // Inside a subgraph other nodes may have nothing that follows them, so what is meant is said.
             None => exported(root).filter(|end| self.stands.contains_key(&end.node)),
         };
         let output = output.and_then(|end| router.output(end, &place));
-        let expose = router.expose(&root.expose, &place);
+        let expose = router.expose(&root.expose, &root.file_place());
         let flat = &mut self.flat;
         flat.links = links.into_values().collect();
         flat.output = output;
@@ -220,6 +220,7 @@ impl Expander {
         for cycle in check::cycles(flat) {
             check::push(&mut self.found, cycle, Place::default());
         }
+        self.found.sort_by_key(|d| d.place.span.as_ref().map(|s| (s.source.name.clone(), s.range.start)));
         let graph = if has_errors(&self.found) { None } else { Some(self.flat) };
         (graph, self.found)
     }

@@ -6,7 +6,7 @@ use std::sync::Arc;
 
 use super::comments::{Item, Target};
 use super::{End, Expose, Graph, Link, MAX_LINKS, check, comments, migrate, read_node};
-use crate::diagnostic::{Diagnostic, Place, SourceText, Span};
+use crate::diagnostic::{Diagnostic, Place, SourceText, Span, did_you_mean};
 use crate::ron::{self, Field, Node, Tree, expect_fields, field, unknown_fields};
 
 /// What was found wrong so far.
@@ -79,8 +79,13 @@ fn graph(document: &ron::Document, report: &mut Report) -> Option<Graph> {
         *text = given.unwrap_or_default().to_string();
     }
     let mut items = Vec::new();
+    let before = report.found.len();
     if let Some(nodes) = field(&fields, "nodes").and_then(|n| report.take(n.as_map(&source))) {
         read_node::nodes(nodes, &mut graph, &mut items, report);
+    }
+    if report.found[before..].iter().any(|d| d.code == "ST0060") {
+        // No node was read, so everything that names one would be wrong.
+        return None;
     }
     if let Some(list) = field(&fields, "links").and_then(|n| report.take(n.as_list(&source))) {
         links(list, &mut graph, &mut items, report);
@@ -229,7 +234,11 @@ fn layout(map: &[(Node, Node)], graph: &Graph, report: &mut Report) -> BTreeMap<
         };
         if !graph.nodes.contains_key(name) && strangers.insert(name) {
             let message = format!("there is a position for `{name}`, and no such node");
-            report.push(Diagnostic::warning("ST0056", message, key.place(&source)));
+            let help = match did_you_mean(name, graph.nodes.keys().map(String::as_str)) {
+                Some(near) => format!("did you mean `{near}`?"),
+                None => "remove it".to_owned(),
+            };
+            report.push(Diagnostic::warning("ST0056", message, key.place(&source)).help(help));
         }
         layout.insert(name.to_string(), position);
     }

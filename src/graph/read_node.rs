@@ -12,7 +12,8 @@ const KNOWN: [&str; 7] = ["kind", "graph", "wgsl", "params", "options", "muted",
 pub(super) fn nodes(map: &[(ron::Node, ron::Node)], graph: &mut Graph, items: &mut Vec<Item>, report: &mut Report) {
     if map.len() > MAX_NODES {
         let message = format!("the graph has {} nodes; at most {MAX_NODES} are handled", map.len());
-        report.push(Diagnostic::error("ST0060", message, report.at(map[MAX_NODES].0.span.clone())));
+        let help = "an image or a node of your own does more with fewer nodes";
+        report.push(Diagnostic::error("ST0060", message, report.at(map[MAX_NODES].0.span.clone())).help(help));
         return;
     }
     let source = report.source.clone();

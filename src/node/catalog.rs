@@ -46,7 +46,9 @@ impl LibraryFile {
             let applied = file::apply(&mut report, &[], &[]);
             for d in applied.declarations.iter().filter(|d| d.entry || matches!(d.keyword, "var" | "override")) {
                 let place = applied.kept.original_range(d.name_range.clone());
-                report.error("ST0125", place, format!("`{}` cannot stand in a library", d.name));
+                report
+                    .error("ST0125", place, format!("`{}` cannot stand in a library", d.name))
+                    .help("a library holds functions, structs, constants and aliases");
             }
             found.extend(report.found);
             let items = file::items_of(&applied);
@@ -111,7 +113,7 @@ impl Catalog {
         let source = SourceText::new(name, text);
         if let Some((range, message)) = super::check::guard(text, 1 << 20) {
             let mut report = Report::new(&source);
-            report.error("ST0130", range, message);
+            report.error("ST0130", range, message).help("split it into shorter functions and statements");
             return report.found;
         }
         let mut trial = self.clone();
@@ -212,8 +214,12 @@ impl Catalog {
             let all = header.synonyms.iter().chain([&header.label]);
             names.extend(all.map(|n| (n.to_lowercase(), kind)));
         }
-        let near = did_you_mean(&spoken, names.iter().map(|(n, _)| n.as_str()))?;
-        names.iter().find(|(n, _)| n == near).map(|(_, kind)| (*kind).to_owned())
+        if let Some(near) = did_you_mean(&spoken, names.iter().map(|(n, _)| n.as_str())) {
+            return names.iter().find(|(n, _)| n == near).map(|(_, kind)| (*kind).to_owned());
+        }
+        // One word of a name, as `noise` is of `white_noise`.
+        let word = |kind: &str| kind.split('_').any(|w| folded.len() > 3 && did_you_mean(&folded, [w]).is_some());
+        self.kinds().find(|kind| word(kind)).map(str::to_owned)
     }
 
     fn headers(&self) -> impl Iterator<Item = (&str, Arc<Header>)> {

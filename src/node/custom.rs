@@ -46,7 +46,7 @@ fn read(
 ) -> Result<Definition, Vec<Diagnostic>> {
     let mut report = Report::new(source);
     if let Some((range, message)) = guard(&source.text, MAX_TEXT) {
-        report.error("ST0130", range, message);
+        report.error("ST0130", range, message).help("split it into shorter functions and statements");
         return Err(report.found);
     }
     let (mut header, mut found) = header::parse(source, false);

@@ -159,13 +159,19 @@ pub(crate) fn apply(report: &mut Report, options: &[OptionSpec], choices: &[(Str
         Some((&choice.1, &option.choices))
     });
     for error in errors {
-        report.error("ST0110", error.range, error.message);
+        report
+            .error("ST0110", error.range, error.message)
+            .help("conditions read `//#if OPTION == a | b`, `//#elif OPTION != c`, `//#else`, `//#end`");
     }
     let (mut declarations, mistakes) = items::split(&kept.text);
     for (range, message) in mistakes {
-        report
-            .error("ST0124", kept.original_range(range), message)
-            .help("a file holds fn, struct, const, alias, override and var declarations");
+        let unknown = message.contains("does not begin");
+        let entry = report.error("ST0124", kept.original_range(range), message);
+        entry.help(if unknown {
+            "a file holds `fn`, `struct`, `const` and `alias` declarations"
+        } else {
+            "close it; perhaps the end of the text was lost"
+        });
     }
     let mut edits = Vec::new();
     for (name, choice) in choices {
@@ -217,7 +223,8 @@ pub(crate) fn define(
     let reader = Reader { kept, declarations, header, strict };
     let function = |name: &str| declarations.iter().find(|d| d.keyword == "fn" && d.name == name);
     let main = function(kind);
-    if main.is_none() {
+    // A text that cannot be split may well hold the function.
+    if main.is_none() && !report.found.iter().any(|d| d.code == "ST0124") {
         report
             .error("ST0121", 0..0, format!("the file has no function `{kind}`"))
             .help("the function that the node stands for is named like the file");
@@ -298,7 +305,9 @@ fn generic(report: &mut Report, header: &Header, applied: &Applied) {
             let ty = initializer(&kept.text, alias).map(|r| kept.text[r].to_owned()).unwrap_or_default();
             if crate::semantic::Shape::from_wgsl(&ty) != *first {
                 let place = kept.original_range(alias.name_range.clone());
-                report.error("ST0122", place, format!("`T` is `{ty}`, the header's first width is `{}`", first.wgsl()));
+                report
+                    .error("ST0122", place, format!("`T` is `{ty}`, the header's first width is `{}`", first.wgsl()))
+                    .help(format!("write `alias T = {};`", first.wgsl()));
             }
         }
     }

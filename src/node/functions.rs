@@ -46,10 +46,9 @@ impl Reader<'_> {
             inputs.extend(self.port(report, field, line));
         }
         for (name, line) in lines {
-            let near = crate::diagnostic::did_you_mean(name, signature.parameters.iter().map(|p| p.name.as_str()));
             report
                 .error("ST0119", line.name_range.clone(), format!("`{}` takes no `{name}`", declaration.name))
-                .suggest(near)
+                .among(name, signature.parameters.iter().map(|p| p.name.as_str()))
                 .port(name);
         }
         let (outputs, result_struct) = self.outputs(report, declaration, signature.result.as_deref(), &written);
@@ -120,6 +119,7 @@ impl Reader<'_> {
                 if fields.iter().all(|f| f.name != line.name) {
                     report
                         .error("ST0119", line.name_range.clone(), format!("`{result}` has no `{}`", line.name))
+                        .help("a line for each member of the struct, and no other")
                         .port(&line.name);
                 }
             }
@@ -188,7 +188,8 @@ impl Reader<'_> {
         };
         if !carries(&shape, line.meaning.kind) {
             let message = format!("a `{}` cannot carry a {}", field.ty, line.meaning.kind.word());
-            report.error("ST0136", line.meaning_range.clone(), message).port(&line.name);
+            let help = "change the type of the parameter, or the meaning of the port";
+            report.error("ST0136", line.meaning_range.clone(), message).help(help).port(&line.name);
         }
         self.default(report, line, &shape);
         Some(Port {
@@ -207,7 +208,12 @@ impl Reader<'_> {
             Some((Default::Value(value), place)) => {
                 if !value.fits(shape) {
                     let message = format!("`{value}` does not fit a `{}`", shape.wgsl());
-                    report.error("ST0114", place.clone(), message).port(&line.name);
+                    let help = match shape.width() {
+                        Some(1) => "write one number".to_owned(),
+                        Some(n) => format!("write one number, or {n} in brackets"),
+                        None => "write a value of that type, or none".to_owned(),
+                    };
+                    report.error("ST0114", place.clone(), message).help(help).port(&line.name);
                 }
                 if let Value::Numbers(numbers) = value
                     && numbers
@@ -215,13 +221,15 @@ impl Reader<'_> {
                         .any(|n| line.range.0.is_some_and(|low| *n < low) || line.range.1.is_some_and(|high| *n > high))
                 {
                     let message = format!("the default `{value}` lies outside the range");
-                    report.error("ST0116", place.clone(), message).port(&line.name);
+                    report.error("ST0116", place.clone(), message).help("change the one or the other").port(&line.name);
                 }
             }
             Some((Default::Source(name), place)) => {
                 if let Some(source) = source(name).filter(|s| s.ty.shape != *shape) {
                     let message = format!("`@{name}` is a `{}`, the port a `{}`", source.ty.shape.wgsl(), shape.wgsl());
-                    report.error("ST0115", place.clone(), message).port(&line.name);
+                    let help =
+                        format!("give the parameter the type `{}`, or take another source", source.ty.shape.wgsl());
+                    report.error("ST0115", place.clone(), message).help(help).port(&line.name);
                 }
             }
             None => {

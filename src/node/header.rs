@@ -97,7 +97,9 @@ impl<'a> Reader<'a> {
             }
             [word, name] if NAMED_KEYS.contains(&word.text) => {
                 if !is_identifier(name.text) {
-                    self.report.error("ST0102", name.range(), format!("`{}` is not a name", name.text));
+                    self.report
+                        .error("ST0102", name.range(), format!("`{}` is not a name", name.text))
+                        .help("a name has letters, digits and `_`, and no digit first");
                 } else if self.once(key, key.text.to_owned()) {
                     self.named(word.text, name, value);
                 }
@@ -130,14 +132,16 @@ impl<'a> Reader<'a> {
         if new {
             self.seen.push(key);
         } else {
-            self.report.error("ST0104", at.range(), format!("`{key}` is said twice"));
+            self.report.error("ST0104", at.range(), format!("`{key}` is said twice")).help("remove one of them");
         }
         new
     }
 
     fn plain(&mut self, key: &str, value: Piece<'a>) {
         if value.text.is_empty() {
-            self.report.error("ST0102", value.range(), format!("`{key}:` says nothing"));
+            self.report
+                .error("ST0102", value.range(), format!("`{key}:` says nothing"))
+                .help("write something behind the colon, or remove the line");
             return;
         }
         match key {
@@ -172,11 +176,13 @@ impl<'a> Reader<'a> {
         };
         let inputs = arguments.map_or(Vec::new(), |a| a.split(','));
         if inputs.len() != parameters.len() {
-            self.report.error(
-                "ST0102",
-                value.range(),
-                format!("{}({}) takes {} inputs", projection.text, parameters.join(", "), parameters.len()),
-            );
+            self.report
+                .error(
+                    "ST0102",
+                    value.range(),
+                    format!("{}({}) takes {} inputs", projection.text, parameters.join(", "), parameters.len()),
+                )
+                .help("name an input of this node for each, in this order");
         }
         for input in &inputs {
             self.port(*input);
@@ -213,13 +219,17 @@ impl<'a> Reader<'a> {
 
     fn generic(&mut self, name: Piece<'a>, value: Piece<'a>) {
         if name.text != "T" {
-            self.report.error("ST0102", name.range(), "the type parameter is called `T`");
+            self.report
+                .error("ST0102", name.range(), "the type parameter is called `T`")
+                .help("write `generic T: f32 | vec3f`");
         }
         for choice in value.split('|') {
             match Shape::from_wgsl(choice.text) {
                 shape @ Shape::F32(_) if !self.header.generic.contains(&shape) => self.header.generic.push(shape),
                 Shape::F32(_) => {
-                    self.report.error("ST0104", choice.range(), format!("`{}` is said twice", choice.text));
+                    self.report
+                        .error("ST0104", choice.range(), format!("`{}` is said twice", choice.text))
+                        .help("remove one of them");
                 }
                 _ => {
                     self.report
@@ -232,10 +242,9 @@ impl<'a> Reader<'a> {
 
     fn port(&mut self, name: Piece<'_>) {
         if !self.port_names.contains(&name.text) {
-            let near = did_you_mean(name.text, self.port_names.iter().copied());
             self.report
                 .error("ST0106", name.range(), format!("no input is called `{}`", name.text))
-                .suggest(near)
+                .among(name.text, self.port_names.iter().copied())
                 .port(name.text);
         }
     }
@@ -253,8 +262,10 @@ impl<'a> Reader<'a> {
         for mention in std::mem::take(&mut self.mentioned) {
             let name = mention.text.trim_start_matches('$');
             if !self.header.options.iter().any(|o| o.name == name) {
-                let near = did_you_mean(name, self.header.options.iter().map(|o: &OptionSpec| o.name.as_str()));
-                self.report.error("ST0107", mention.range(), format!("no option is called `{name}`")).suggest(near);
+                let names = self.header.options.iter().map(|o: &OptionSpec| o.name.as_str());
+                self.report
+                    .error("ST0107", mention.range(), format!("no option is called `{name}`"))
+                    .among(name, names);
             }
         }
         (self.header, self.report.found)

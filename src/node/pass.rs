@@ -95,7 +95,9 @@ impl PassFile {
             };
             if known {
                 if seen.contains(&key.text) {
-                    report.error("ST0104", key.range(), format!("`{}` is said twice", key.text));
+                    report
+                        .error("ST0104", key.range(), format!("`{}` is said twice", key.text))
+                        .help("remove one of them");
                 } else {
                     seen.push(key.text);
                     pass.line(&mut report, &words, value);
@@ -128,7 +130,7 @@ impl PassFile {
         let alternatives = |report: &mut Report| -> Vec<String> {
             let parts = value.split('|');
             for part in parts.iter().filter(|p| p.text.is_empty()) {
-                report.error("ST0138", part.range(), "an empty alternative");
+                report.error("ST0138", part.range(), "an empty alternative").help("remove a `|`");
             }
             parts.iter().map(|p| p.text.to_owned()).collect()
         };
@@ -152,7 +154,9 @@ impl PassFile {
             "axes" => {
                 self.axes = alternatives(report);
                 if self.axes.iter().any(|a| a != "x" && a != "y") {
-                    report.error("ST0138", value.range(), "axes are x and y");
+                    report
+                        .error("ST0138", value.range(), "axes are x and y")
+                        .help("write `axes: x | y`, or leave the line out");
                 }
             }
             "clear" => {
@@ -161,7 +165,9 @@ impl PassFile {
                 match numbers.collect::<Result<Vec<f64>, _>>() {
                     Ok(n) if (1..=4).contains(&n.len()) && n.iter().all(|x| x.is_finite()) => self.clear = n,
                     _ => {
-                        report.error("ST0138", value.range(), "`clear` takes one to four numbers");
+                        report
+                            .error("ST0138", value.range(), "`clear` takes one to four numbers")
+                            .help("write for example `clear: (1, 0, 0, 0)`");
                     }
                 }
             }
@@ -170,7 +176,9 @@ impl PassFile {
                     self.skip = Some(Skip { option: option.text.to_owned(), value: value.text.to_owned() });
                 }
                 None => {
-                    report.error("ST0138", value.range(), "`skip` reads `OPTION == CHOICE`");
+                    report
+                        .error("ST0138", value.range(), "`skip` reads `OPTION == CHOICE`")
+                        .help("write for example `skip: width == 1`");
                 }
             },
             _ => {}
@@ -181,11 +189,15 @@ impl PassFile {
         let Some(skip) = &self.skip else { return };
         match self.options.iter().find(|o| o.name == skip.option) {
             Some(option) if option.choices.contains(&skip.value) => {}
-            Some(_) => {
-                report.error("ST0138", 0..0, format!("`{}` is not a choice of `{}`", skip.value, skip.option));
+            Some(option) => {
+                report
+                    .error("ST0138", 0..0, format!("`{}` is not a choice of `{}`", skip.value, skip.option))
+                    .help(format!("choices are {}", option.choices.join(", ")));
             }
             None => {
-                report.error("ST0107", 0..0, format!("`skip` names no option: `{}`", skip.option));
+                report
+                    .error("ST0107", 0..0, format!("`skip` names no option: `{}`", skip.option))
+                    .among(&skip.option, self.options.iter().map(|o| o.name.as_str()));
             }
         }
     }
@@ -218,7 +230,9 @@ impl PassFile {
         let own = file::items_of(&applied);
         let entries: Vec<&str> = applied.declarations.iter().filter(|d| d.entry).map(|d| d.name.as_str()).collect();
         if entries.is_empty() {
-            report.error("ST0121", 0..0, format!("the pass `{}` has no entry point", self.name));
+            report
+                .error("ST0121", 0..0, format!("the pass `{}` has no entry point", self.name))
+                .help("mark one function `@vertex` and one `@fragment`");
             return Err(report.found);
         }
         let items: Vec<&Item> = catalog.closure(&self.uses).into_iter().flat_map(|l| &l.items).chain(&own).collect();

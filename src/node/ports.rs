@@ -92,7 +92,7 @@ pub(crate) fn parse(report: &mut Report, line: Piece<'_>) -> Option<PortLine> {
             false
         };
         if again {
-            report.error("ST0104", part.range(), "said twice").port(&port.name);
+            report.error("ST0104", part.range(), "said twice").help("remove one of them").port(&port.name);
         }
     }
     if output && (port.default.is_some() || port.hidden || port.range != (None, None)) {
@@ -129,7 +129,8 @@ fn read_meaning(report: &mut Report, piece: Piece<'_>) -> Meaning {
         let words = words.chain(Quantity::ALL.iter().map(|k| k.word()));
         let words = words.chain(Encoding::ALL.iter().map(|k| k.word())).filter(|w| !w.is_empty());
         let near = did_you_mean(unknown, words);
-        report.error("ST0113", piece.range(), message).suggest(near);
+        let at = piece.words().into_iter().find(|word| word.text == unknown).map_or(piece.range(), Piece::range);
+        report.error("ST0113", at, message).suggest(near);
         Meaning::of(Kind::Number)
     })
 }
@@ -184,19 +185,25 @@ fn range(report: &mut Report, piece: Piece<'_>, port: &mut PortLine) {
     };
     port.range = (limit(low), limit(high));
     if low.text.is_empty() && high.text.is_empty() {
-        report.error("ST0116", piece.range(), "a range without an end").port(&port.name);
+        report
+            .error("ST0116", piece.range(), "a range without an end")
+            .help("a range reads `0..1`, `0..` or `..1`")
+            .port(&port.name);
     }
     if let (Some(low), Some(high)) = port.range
         && low > high
     {
-        report.error("ST0116", piece.range(), format!("the range {low}..{high} is empty")).port(&port.name);
+        report
+            .error("ST0116", piece.range(), format!("the range {low}..{high} is empty"))
+            .help("write the lower limit first")
+            .port(&port.name);
     }
 }
 
 fn flags(report: &mut Report, piece: Piece<'_>, port: &mut PortLine) {
     let words: Vec<Piece<'_>> = piece.split(',').into_iter().flat_map(Piece::words).collect();
     if words.is_empty() {
-        report.error("ST0112", piece.range(), "an empty entry between `;`").port(&port.name);
+        report.error("ST0112", piece.range(), "an empty entry between `;`").help("remove a `;`").port(&port.name);
     }
     let mut words = words.into_iter();
     while let Some(word) = words.next() {
@@ -265,7 +272,7 @@ mod tests {
             ("what it does", "ST0112 what it does: "),
             ("a b (scalar): X.", "ST0112 a b: "),
             ("a (scalr): X.", "ST0113 scalr: "),
-            ("a (scalar wrold): X.", "ST0113 scalar wrold: "),
+            ("a (scalar wrold): X.", "ST0113 wrold: "),
             ("a (scalar)", "ST0112 : "),
             ("a (scalar; = @tme): X.", "ST0115 @tme: "),
             ("a (scalar; = 1, 2): X.", "ST0114 1, 2: "),

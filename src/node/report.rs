@@ -3,7 +3,7 @@
 use std::ops::Range;
 use std::sync::Arc;
 
-use crate::diagnostic::{Diagnostic, Place, SourceText, Span};
+use crate::diagnostic::{Diagnostic, Place, SourceText, Span, did_you_mean};
 
 /// What was found so far in one text; ranges are bytes of that text.
 pub(crate) struct Report {
@@ -35,6 +35,16 @@ impl Entry<'_> {
     pub(crate) fn help(self, help: impl Into<String>) -> Self {
         self.0.help = Some(help.into());
         self
+    }
+
+    /// Suggests the nearest of some words, or tells all of them.
+    pub(crate) fn among<'w>(self, wanted: &str, words: impl IntoIterator<Item = &'w str>) -> Self {
+        let words: Vec<&str> = words.into_iter().collect();
+        match did_you_mean(wanted, words.iter().copied()) {
+            Some(near) => self.help(format!("did you mean `{near}`?")),
+            None if words.is_empty() => self.help("there are none here"),
+            None => self.help(format!("possible here: {}", words.join(", "))),
+        }
     }
 
     /// Says at which port.

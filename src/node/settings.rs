@@ -10,9 +10,9 @@ pub(crate) fn list(report: &mut Report, value: Piece<'_>) -> Vec<String> {
     let mut found: Vec<String> = Vec::new();
     for part in value.split(',') {
         if part.text.is_empty() {
-            report.error("ST0102", part.range(), "an empty entry in a list");
+            report.error("ST0102", part.range(), "an empty entry in a list").help("remove a comma");
         } else if found.iter().any(|f| f == part.text) {
-            report.error("ST0104", part.range(), format!("`{}` is said twice", part.text));
+            report.error("ST0104", part.range(), format!("`{}` is said twice", part.text)).help("remove one of them");
         } else {
             found.push(part.text.to_owned());
         }
@@ -24,7 +24,9 @@ pub(crate) fn list(report: &mut Report, value: Piece<'_>) -> Vec<String> {
 pub(crate) fn names(report: &mut Report, value: Piece<'_>) -> Vec<String> {
     for part in value.split(',') {
         if !part.text.is_empty() && !is_identifier(part.text) {
-            report.error("ST0102", part.range(), format!("`{}` is not a name", part.text));
+            report
+                .error("ST0102", part.range(), format!("`{}` is not a name", part.text))
+                .help("names are separated by commas");
         }
     }
     let mut found = list(report, value);
@@ -39,13 +41,15 @@ pub(crate) fn call<'a>(report: &mut Report, value: Piece<'a>) -> Option<(Piece<'
             (value.slice(0..open).trim(), Some(value.slice(open + 1..value.text.len() - 1).trim()))
         }
         Some(_) => {
-            report.error("ST0102", value.range(), "a parenthesis is not closed");
+            report.error("ST0102", value.range(), "a parenthesis is not closed").help("write `name(a, b)`");
             return None;
         }
         None => (value, None),
     };
     if !is_identifier(name.text) {
-        report.error("ST0102", name.range(), format!("`{}` is not a name", name.text));
+        report
+            .error("ST0102", name.range(), format!("`{}` is not a name", name.text))
+            .help("write `name` or `name(a, b)`");
         return None;
     }
     Some((name, arguments))
@@ -72,9 +76,13 @@ pub(crate) fn option(report: &mut Report, name: Piece<'_>, value: Piece<'_>) -> 
     for choice in choices.split('|') {
         let word = choice.text.bytes().all(|b| b.is_ascii_alphanumeric() || matches!(b, b'_' | b'.' | b'-' | b'+'));
         if choice.text.is_empty() || !word {
-            report.error("ST0102", choice.range(), format!("`{}` is not a choice", choice.text));
+            report
+                .error("ST0102", choice.range(), format!("`{}` is not a choice", choice.text))
+                .help("a choice has letters, digits, `_`, `.`, `-` and `+`");
         } else if found.iter().any(|f| f == choice.text) {
-            report.error("ST0104", choice.range(), format!("`{}` is said twice", choice.text));
+            report
+                .error("ST0104", choice.range(), format!("`{}` is said twice", choice.text))
+                .help("remove one of them");
         } else {
             found.push(choice.text.to_owned());
         }
@@ -111,7 +119,9 @@ fn pairs<'a>(report: &mut Report, pieces: &[Piece<'a>], mentioned: &mut Vec<Piec
         match piece.split_once("=") {
             Some((key, value)) if is_identifier(key.text) && !value.text.is_empty() => {
                 if found.iter().any(|(k, _)| k == key.text) {
-                    report.error("ST0104", key.range(), format!("`{}` is said twice", key.text));
+                    report
+                        .error("ST0104", key.range(), format!("`{}` is said twice", key.text))
+                        .help("remove one of them");
                     continue;
                 }
                 if value.text.starts_with('$') {
@@ -120,7 +130,9 @@ fn pairs<'a>(report: &mut Report, pieces: &[Piece<'a>], mentioned: &mut Vec<Piec
                 found.push((key.text.to_owned(), value.text.to_owned()));
             }
             _ => {
-                report.error("ST0102", piece.range(), format!("`{}` does not read `key=value`", piece.text));
+                report
+                    .error("ST0102", piece.range(), format!("`{}` does not read `key=value`", piece.text))
+                    .help("write no spaces around `=`");
             }
         }
     }
@@ -166,7 +178,9 @@ fn checked<'a>(
         match known(key, setting) {
             Some(good) if good || setting.starts_with('$') => {}
             Some(_) => {
-                report.error("ST0102", value.range(), format!("`{setting}` is not a value of `{key}`"));
+                report
+                    .error("ST0102", value.range(), format!("`{setting}` is not a value of `{key}`"))
+                    .help("nodes/README.md lists the values of each setting");
             }
             None => {
                 report

@@ -19,7 +19,7 @@ impl NodeFile {
     pub fn verify(&self, catalog: &Catalog) -> Vec<Diagnostic> {
         if let Some((range, message)) = guard(&self.source().text, MAX_FILE) {
             let mut report = Report::new(self.source());
-            report.error("ST0130", range, message);
+            report.error("ST0130", range, message).help("split it into shorter functions and statements");
             return report.found;
         }
         let header = match self.header() {
@@ -87,8 +87,10 @@ impl Catalog {
                     None => Place::file(&header.source.name),
                 };
                 let mut error = Diagnostic::error("ST0128", format!("there is no library `{name}`"), place);
-                error.help = crate::diagnostic::did_you_mean(name, self.library_names())
-                    .map(|near| format!("did you mean `{near}`?"));
+                error.help = Some(match crate::diagnostic::did_you_mean(name, self.library_names()) {
+                    Some(near) => format!("did you mean `{near}`?"),
+                    None => format!("libraries are {}", self.library_names().collect::<Vec<_>>().join(", ")),
+                });
                 error
             })
             .collect()

@@ -1,15 +1,15 @@
 //! From resolved wiring to expressions, node by node in evaluation order.
 
 use super::evaluate::{Context, Worth, takes_surfaces};
-use super::{Id, NodeInfo, Op, Program, Varying};
+use super::{Bake, Id, NodeInfo, Op, Program, Varying};
 use crate::node::Definition;
 use crate::semantic::Quantity;
 use crate::weave::{Root, Wire, Woven, is_light, is_lit, is_shadow, is_surface};
 
 use std::collections::{BTreeMap, BTreeSet};
 
-/// The program of a woven tree. With `bake`, parameters become constants.
-pub fn build(woven: &Woven, bake: bool) -> Program {
+/// The program of a woven tree.
+pub fn build(woven: &Woven, bake: Bake) -> Program {
     let mut program = Program { bake, ..Program::default() };
     let mut count: BTreeMap<&str, u32> = BTreeMap::new();
     let last = |id: &'_ str| id.rfind('/').map_or(0, |at| at + 1);

@@ -1,12 +1,13 @@
 //! Calls of node functions: arguments from wires, in the context of a light or of none.
 
-use super::{Id, Instance, MapDemand, Op, Parameter, Program, Resource, sampler_settings};
+use super::{Bake, Id, Instance, MapDemand, Op, Parameter, Program, Resource, sampler_settings};
 use crate::module::stored;
-use crate::node::{Definition, Port, rename};
+use crate::node::{Default, Definition, Port, rename};
 use crate::semantic::{Chain, Kind, Quantity, Shape, Value};
 use crate::weave::{Node, Wire, Woven, is_light, is_shadow};
 
 use std::collections::BTreeMap;
+use std::rc::Rc;
 
 /// What a node is worth: one expression per output, without a light and under each light.
 #[derive(Clone, Default)]
@@ -56,24 +57,24 @@ impl Program {
     /// The outputs of a call of the main or the ambient function; none if an argument is missing in this context.
     pub(crate) fn call(&mut self, context: &Context<'_>, ambient: bool) -> Option<Vec<Id>> {
         let node = context.node();
-        let instance = Instance { definition: node.definition.clone(), generic: node.generic.clone(), ambient };
-        let function = instance.function().clone();
+        let definition = node.definition.clone();
+        let instance = Instance { definition: definition.clone(), generic: node.generic.clone(), ambient };
+        let function = match &definition.ambient {
+            Some(function) if ambient => function,
+            _ => &definition.main,
+        };
         let mut arguments = Vec::with_capacity(function.inputs.len());
         for port in &function.inputs {
             arguments.push(self.argument(context, port)?);
         }
-        let inline = function.body.as_ref().filter(|_| node.definition.header.inline);
-        let inline_text = inline.map(|body| placeholders(body, &instance));
+        let inline = function.body.as_ref().filter(|_| definition.header.inline);
         let index = self.function(instance);
-        let name = self.result_name(context, &function, ambient);
-        let id = match inline_text {
-            Some(text) => {
-                let op = Op::Template { text: text.into(), function: Some(index) };
-                self.add(op, arguments, &name, Some(context.index))
-            }
-            None => self.add(Op::Call(index), arguments, &name, Some(context.index)),
+        let name = self.result_name(context, function, ambient);
+        let op = match inline {
+            Some(body) => Op::Template { text: self.inline_text(index, body), function: Some(index) },
+            None => Op::Call(index),
         };
-        // A node that hands on its input unchanged has no line of its own.
+        let id = self.add(op, arguments, &name, Some(context.index));
         let expression = &mut self.expressions[id.0 as usize];
         expression.result = true;
         expression.light = context.light.filter(|_| !is_light(&node.definition) && !is_shadow(&node.definition));
@@ -139,6 +140,22 @@ impl Program {
         }
     }
 
+    /// The body of an inline function with `$i` for its parameters and `T` replaced.
+    fn inline_text(&mut self, index: usize, body: &str) -> Rc<str> {
+        if let Some(known) = self.inline_texts.get(&index) {
+            return known.clone();
+        }
+        let instance = &self.functions[index];
+        let inputs = &instance.function().inputs;
+        let text = rename(body, &|word| match (word, &instance.generic) {
+            ("T", Some(shape)) => Some(shape.wgsl()),
+            _ => inputs.iter().position(|p| p.name == word).map(|i| format!("${i}")),
+        });
+        let text: Rc<str> = text.into();
+        self.inline_texts.insert(index, text.clone());
+        text
+    }
+
     fn zero(&mut self) -> Id {
         self.add(Op::Literal("vec3f(0.0)".into()), Vec::new(), "zero", None)
     }
@@ -147,8 +164,7 @@ impl Program {
     fn provided(&mut self, context: &Context<'_>, name: &str, port: &Port) -> Id {
         let id = self.source(name);
         let Some(source) = crate::node::source(name) else { return id };
-        let conversions = crate::semantic::Conversions::default();
-        match conversions.chain(&source.ty, &port.ty) {
+        match self.conversions.chain(&source.ty, &port.ty) {
             Some(chain) => self.converted(id, &chain, Some(context.index), &port.name),
             None => id,
         }
@@ -214,7 +230,9 @@ impl Program {
     }
 
     fn parameter(&mut self, definition: &Definition, node: usize, port: &Port, value: &Value) -> Id {
-        let constant = self.bake && !space_inputs(definition).contains(&port.name);
+        let default = matches!(&port.default, Some(Default::Value(d)) if d == value);
+        let constant = self.bake == Bake::All || (self.bake == Bake::Defaults && default);
+        let constant = constant && !space_inputs(definition).contains(&port.name);
         let shape = self.shape_of(node, port);
         if constant {
             let text = literal(&shape, port, value);
@@ -291,19 +309,6 @@ impl Program {
 /// Inputs of a light that define the space of its maps.
 pub(crate) fn space_inputs(definition: &Definition) -> &[String] {
     definition.header.space.as_ref().map_or(&[], |s| &s.inputs)
-}
-
-/// The body of an inline function with `$i` for its parameters and `T` replaced.
-fn placeholders(body: &str, instance: &Instance) -> String {
-    let function = instance.function();
-    rename(body, &|word| {
-        if word == "T"
-            && let Some(shape) = &instance.generic
-        {
-            return Some(shape.wgsl());
-        }
-        function.inputs.iter().position(|p| p.name == word).map(|i| format!("${i}"))
-    })
 }
 
 /// A value as WGSL.

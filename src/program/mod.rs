@@ -14,7 +14,7 @@ use std::sync::Arc;
 
 use crate::module::{Address, SamplerSettings};
 use crate::node::{Definition, Function};
-use crate::semantic::{Shape, Value};
+use crate::semantic::{Conversions, Shape, Value};
 
 pub use build::build;
 
@@ -193,7 +193,21 @@ pub struct Program {
     known: HashMap<(Op, Vec<Id>), Id>,
     function_index: HashMap<String, usize>,
     parameter_index: HashMap<(usize, String), usize>,
-    bake: bool,
+    inline_texts: HashMap<usize, Rc<str>>,
+    conversions: Conversions,
+    bake: Bake,
+}
+
+/// Which values are written as constants instead of parameters. What the spaces of maps are made from never is.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Bake {
+    /// None.
+    #[default]
+    Nothing,
+    /// Those that are the defaults of their nodes.
+    Defaults,
+    /// All.
+    All,
 }
 
 impl Program {

@@ -49,7 +49,8 @@ pub(super) struct Reader<'a> {
 pub fn read(source: &Arc<SourceText>) -> (Option<Document>, Vec<Diagnostic>) {
     if source.text.len() > MAX_BYTES {
         let message = format!("the file has {} bytes; at most {MAX_BYTES} are read", source.text.len());
-        return (None, vec![Diagnostic::error("ST0005", message, Place::file(&source.name))]);
+        let error = Diagnostic::error("ST0005", message, Place::file(&source.name));
+        return (None, vec![error.help(help("ST0005", ""))]);
     }
     let mut reader = Reader {
         source,
@@ -75,7 +76,27 @@ pub fn read(source: &Arc<SourceText>) -> (Option<Document>, Vec<Diagnostic>) {
 }
 
 fn diagnose(source: &Arc<SourceText>, mistake: Mistake) -> Diagnostic {
-    Diagnostic::error(mistake.code, mistake.message, Place::span(Span::new(source, mistake.at)))
+    let help = help(mistake.code, &mistake.message);
+    Diagnostic::error(mistake.code, mistake.message, Place::span(Span::new(source, mistake.at))).help(help)
+}
+
+/// What to do about a mistake.
+fn help(code: &str, message: &str) -> &'static str {
+    match code {
+        "ST0001" if message.starts_with("expected `,`") => "is a comma missing before this?",
+        "ST0001" if message.starts_with("expected `:`") => "write `:` between a name and its value",
+        "ST0001" if message.ends_with("closes this") => "add it where it belongs; perhaps the end of the file was lost",
+        "ST0001" if message.contains("found") => "brackets close in the opposite order of their opening",
+        "ST0001" if message.ends_with("empty") => "a file holds one value, such as `Graph(...)`",
+        "ST0001" => "a value is a number, a text in quotes, `true`, `false`, or stands in (...), [...] or {...}",
+        "ST0002" => "close it where it ends; perhaps the end of the file was lost",
+        "ST0003" => "write a backslash as `\\\\`, or a raw string: `r\"C:\\path\"`",
+        "ST0004" => "remove brackets that hold nothing but other brackets",
+        "ST0005" => "split the file into several",
+        "ST0006" => "remove one of them",
+        "ST0007" => "remove what follows, or a closing bracket too many before it",
+        _ => "correct these first",
+    }
 }
 
 impl Reader<'_> {
@@ -94,7 +115,8 @@ impl Reader<'_> {
             n if n < MAX_ERRORS => self.diagnostics.push(diagnose(self.source, mistake)),
             MAX_ERRORS => {
                 let message = format!("more than {MAX_ERRORS} mistakes; the rest are not listed");
-                self.diagnostics.push(Diagnostic::error("ST0012", message, Place::file(&self.source.name)));
+                let error = Diagnostic::error("ST0012", message, Place::file(&self.source.name));
+                self.diagnostics.push(error.help(help("ST0012", "")));
             }
             _ => {}
         }
@@ -161,6 +183,7 @@ impl Reader<'_> {
 
     fn tree(&mut self) -> Result<Tree, Mistake> {
         match self.peek() {
+            None if self.text.trim().is_empty() => return Err(self.mistake("ST0001", "the file is empty")),
             None => return Err(self.mistake("ST0001", "the file ends where a value must stand")),
             Some('"') => return self.string(),
             Some('\'') => return self.character(),

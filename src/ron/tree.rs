@@ -93,11 +93,11 @@ impl Node {
     /// The complaint that `what` was needed here.
     pub fn expected(&self, source: &Arc<SourceText>, what: &str) -> Box<Diagnostic> {
         let message = format!("expected {what}, found {}", self.value.describe());
-        let mut diagnostic = Diagnostic::error("ST0008", message, self.place(source));
-        if let (Tree::Ident(word), true) = (&self.value, what.contains("text")) {
-            diagnostic = diagnostic.help(format!("put it in quotes: \"{word}\""));
-        }
-        Box::new(diagnostic)
+        let help = match &self.value {
+            Tree::Ident(word) | Tree::Number(word) if what.contains("text") => format!("put it in quotes: \"{word}\""),
+            _ => format!("write {what}"),
+        };
+        Box::new(Diagnostic::error("ST0008", message, self.place(source)).help(help))
     }
 
     /// As `true` or `false`.
@@ -125,7 +125,7 @@ impl Node {
         match parse_number(written) {
             Some(x) if x.is_finite() => Ok(x),
             Some(_) => Err(wrong(format!("`{written}` is not a finite number")).help_finite()),
-            None => Err(wrong(format!("`{written}` is not a number"))),
+            None => Err(wrong(format!("`{written}` is not a number")).help_finite()),
         }
     }
 
@@ -135,7 +135,8 @@ impl Node {
         // 2^53: beyond it neighbouring whole numbers read as the same f64.
         if x.fract() != 0.0 || x < 0.0 || x > max.min(1 << 53) as f64 {
             let message = format!("expected a whole number from 0 to {max}, found {}", self.value.describe());
-            return Err(Box::new(Diagnostic::error("ST0009", message, self.place(source))));
+            let error = Diagnostic::error("ST0009", message, self.place(source));
+            return Err(Box::new(error.help("write it without a point, sign or exponent")));
         }
         Ok(x as u64)
     }

@@ -90,7 +90,13 @@ impl Reader<'_> {
         if let Err((code, message)) = outcome {
             let lead = line.len() - line.trim_start().len();
             let span = Span::new(self.source, start + lead..start + line.trim_end().len().max(lead));
-            self.errors.push(Diagnostic::error(code, message, Place::span(span)));
+            let help = match code {
+                "ST0420" => "a position is `v X Y Z`, a texture coordinate `vt U V`, a normal `vn X Y Z`",
+                "ST0421" => "a corner is `V`, `V/VT`, `V//VN` or `V/VT/VN`; counting begins at 1, or at -1 backwards",
+                "ST0422" => "a face is `f` with 3 to 1024 corners",
+                _ => "export the model with fewer triangles, or in parts",
+            };
+            self.errors.push(Diagnostic::error(code, message, Place::span(span)).help(help));
             if code == "ST0423" {
                 self.positions.clear();
                 self.texcoords.clear();

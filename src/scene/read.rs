@@ -23,7 +23,10 @@ impl Report {
             self.found.push(diagnostic);
         } else if self.found.len() == MAX_REPORTED {
             let place = Place::file(self.source.name.clone());
-            self.found.push(Diagnostic::error("ST0415", "there are more mistakes than are listed here", place));
+            self.found.push(
+                Diagnostic::error("ST0415", "there are more mistakes than are listed here", place)
+                    .help("correct these first"),
+            );
         }
     }
 
@@ -64,6 +67,13 @@ impl Report {
         unknown.map(|f| (f.name.clone(), f.value.clone())).collect()
     }
 
+    /// An error about the file as a whole, at the name of its root.
+    fn at_root(&mut self, code: &'static str, message: impl Into<String>, root: &Node, help: &str) {
+        let name = root.span.start..root.span.start + "Scene".len().min(root.span.len());
+        let place = Place::span(Span::new(&self.source, name));
+        self.push(Diagnostic::error(code, message, place).help(help));
+    }
+
     pub(super) fn span(&self, node: &Node) -> Span {
         Span::new(&self.source, node.span.clone())
     }
@@ -90,7 +100,7 @@ fn scene(document: &ron::Document, report: &mut Report) -> Option<Scene> {
                 Tree::Struct(Some(name), _) if name == "Graph" => "this is a graph file; a scene file is needed here",
                 _ => "a scene file is written `Scene(version: 1, camera: (...), lights: {...}, objects: {...})`",
             };
-            report.error("ST0400", format!("expected `Scene(...)`, found {}", other.describe()), root, help);
+            report.at_root("ST0400", format!("expected `Scene(...)`, found {}", other.describe()), root, help);
             return None;
         }
     };
@@ -104,7 +114,7 @@ fn scene(document: &ron::Document, report: &mut Report) -> Option<Scene> {
         Some(node) => scene.camera = camera(node, report),
         None => {
             let help = "add `camera: (position: (3, 2, 5), target: (0, 0.5, 0), fov: 40)`";
-            report.error("ST0403", "the scene has no camera", root, help);
+            report.at_root("ST0403", "the scene has no camera", root, help);
         }
     }
     if let Some(node) = field(fields, "environment") {
@@ -118,7 +128,7 @@ fn scene(document: &ron::Document, report: &mut Report) -> Option<Scene> {
     }
     if field(fields, "objects").is_none_or(|n| matches!(&n.value, Tree::Map(m) if m.is_empty())) {
         let help = "add `objects: {\"ground\": (shape: Plane(size: (10, 10)), surface: \"surface.ron\")}`";
-        let place = root.place(&report.source);
+        let place = Place::span(Span::new(&report.source, root.span.start..root.span.start + "Scene".len()));
         report.push(Diagnostic::warning("ST0410", "the scene has no objects", place).help(help));
     }
     let known = ["version", "name", "note", "camera", "environment", "lights", "objects"];
@@ -132,7 +142,7 @@ fn scene(document: &ron::Document, report: &mut Report) -> Option<Scene> {
 /// Whether the version is one that is read.
 fn version(fields: &[Field], root: &Node, report: &mut Report) -> bool {
     let Some(node) = field(fields, "version") else {
-        report.error("ST0401", "the scene does not say its version", root, "add `version: 1` as its first field");
+        report.at_root("ST0401", "the scene does not say its version", root, "add `version: 1` as its first field");
         // It can still be looked at: a forgotten version is no reason to hide other mistakes.
         return true;
     };
@@ -163,7 +173,7 @@ fn entries<'a>(fields: &'a [Field], name: &str, report: &mut Report) -> Vec<(Str
     };
     if map.len() > MAX_ITEMS {
         let message = format!("the scene has {} {name}; at most {MAX_ITEMS} are handled", map.len());
-        report.error("ST0414", message, &map[MAX_ITEMS].0, "");
+        report.error("ST0414", message, &map[MAX_ITEMS].0, "put objects that have one surface into one OBJ file");
         return Vec::new();
     }
     let mut entries = Vec::new();

@@ -108,10 +108,10 @@ fn every_mistake_has_its_code_and_place() {
         format!("Scene(version: 1, camera: ({inner}), objects: {{\"o\": (shape: Sphere, surface: \"s\")}})")
     };
     let cases = [
-        ("Graph(version: 1)".to_string(), "ST0400 Graph(version: 1)"),
+        ("Graph(version: 1)".to_string(), "ST0400 Graph"),
         ("Scene(version: 2)".into(), "ST0402 2"),
         ("Scene(version: \"1\", camera: (fov: 40), objects: {})".into(), "ST0401 \"1\""),
-        ("Scene(version: 1, objects: {})".into(), "ST0403 Scene(version: 1, objects: {})"),
+        ("Scene(version: 1, objects: {})".into(), "ST0403 Scene"),
         (scene("fov: 180"), "ST0404 180"),
         (scene("fov: NaN"), "ST0009 NaN"),
         (scene("near: 0"), "ST0404 0"),

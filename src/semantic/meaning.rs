@@ -295,9 +295,12 @@ impl Type {
 
 impl fmt::Display for Type {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let (meaning, shape) = (self.meaning.to_string(), self.shape.wgsl());
         match self.shape {
-            Shape::Generic => write!(f, "{} (any width)", self.meaning),
-            _ => write!(f, "{} ({})", self.meaning, self.shape.wgsl()),
+            Shape::Generic => write!(f, "{meaning} (any width)"),
+            // `bool (bool)` says it twice.
+            _ if meaning == shape => f.write_str(&shape),
+            _ => write!(f, "{meaning} ({shape})"),
         }
     }
 }

@@ -7,7 +7,7 @@ use petgraph::algo::toposort;
 use petgraph::graph::{DiGraph, NodeIndex};
 
 use super::{Found, Link};
-use crate::compile::NamedGraph;
+use crate::compile::{MAX_REPORTED, NamedGraph};
 use crate::diagnostic::{Diagnostic, SourceText, Span, did_you_mean};
 use crate::graph::{self, Setting};
 use crate::node::{self, Catalog, Definition, Port};
@@ -99,18 +99,25 @@ pub(crate) fn collect(graphs: &[NamedGraph], catalog: &Catalog, out: &mut Vec<Di
 
 /// Links with muted nodes passed over: what fed a muted node feeds whatever it fed.
 fn bypass(graph: &graph::Graph) -> Vec<(&graph::Link, graph::End, graph::End)> {
-    let all = graph.links.iter().map(|l| (l, l.from.clone(), l.to.clone()));
-    let mut links: Vec<_> = all.collect();
-    let muted = graph.nodes.iter().filter(|(_, n)| n.muted).map(|(name, _)| name);
-    for name in muted {
-        let (touching, mut rest): (Vec<_>, Vec<_>) =
-            links.into_iter().partition(|(_, from, to)| &from.node == name || &to.node == name);
-        let (into, out): (Vec<_>, Vec<_>) = touching.into_iter().partition(|(_, _, to)| &to.node == name);
-        // One source is enough to heal a wire; of several the first feeds on, as their order is by name.
-        if let Some((_, source, _)) = into.first() {
-            rest.extend(out.into_iter().map(|(link, _, to)| (link, source.clone(), to)));
+    let muted = |name: &str| graph.nodes.get(name).is_some_and(|n| n.muted);
+    // One source is enough to heal a wire; of several the first feeds on, as their order is by name.
+    let mut source: HashMap<&str, Option<&graph::End>> = HashMap::new();
+    for link in graph.links.iter().filter(|l| muted(&l.to.node)) {
+        source.entry(&link.to.node).or_insert(Some(&link.from));
+    }
+    let mut links = Vec::with_capacity(graph.links.len());
+    for link in graph.links.iter().filter(|l| !muted(&l.to.node)) {
+        let mut from = Some(&link.from);
+        let mut passed = Vec::new();
+        while let Some(end) = from.filter(|end| muted(&end.node)) {
+            passed.push(end.node.as_str());
+            // Taken out while it is followed, so that a cycle ends.
+            from = source.insert(&end.node, None).flatten();
         }
-        links = rest;
+        for name in passed {
+            source.insert(name, from);
+        }
+        links.extend(from.map(|from| (link, from.clone(), link.to.clone())));
     }
     links
 }
@@ -142,7 +149,9 @@ fn definition(
     } else {
         let message = format!("there is no node called `{}`", node.kind);
         let error = Diagnostic::error("ST0200", message, graph.kind_place(name));
-        out.push(match catalog.nearest(&node.kind) {
+        // Looking through all names takes long, and nobody reads a hundred suggestions.
+        let nearest = if out.len() < MAX_REPORTED { catalog.nearest(&node.kind) } else { None };
+        out.push(match nearest {
             Some(near) => error.help(format!("did you mean `{near}`?")),
             None => error.help("`shadetree nodes` lists all nodes; `--nodes DIR` adds a folder of your own"),
         });
@@ -168,8 +177,10 @@ fn own_place(graph: &graph::Graph, name: &str, mut found: Diagnostic) -> Diagnos
     if outer.source.text.get(outer.range.clone()) == Some(inner.source.text.as_str()) {
         let start = outer.range.start;
         *inner = Span::new(&outer.source, start + inner.range.start..start + inner.range.end);
+        return found;
     }
-    found
+    let (line, column) = outer.line_column();
+    found.note(format!("this text is written at {}:{line}:{column}, with escapes", outer.source.name))
 }
 
 fn check_options(
@@ -228,8 +239,8 @@ fn values(
 ) -> BTreeMap<String, Value> {
     let mut values = BTreeMap::new();
     let prefix = format!("{name}.");
-    let overrides =
-        named.set.iter().filter_map(|(path, v)| Some((path.strip_prefix(&prefix)?, v, named.graph.place(name))));
+    let overrides = named.set.iter().filter_map(|(path, v)| Some((path.strip_prefix(&prefix)?, v)));
+    let overrides = overrides.map(|(port, v)| (port, v, named.graph.param_place(name, port)));
     let given = node.params.iter().map(|(port, v)| (port.as_str(), v, named.graph.param_place(name, port)));
     for (port, value, place) in given.chain(overrides) {
         let Some(input) = definition.input(port).filter(|p| !p.hidden) else {
@@ -289,7 +300,12 @@ fn check_value(input: &Port, value: &Value) -> Option<(&'static str, String, Str
 
 fn check_overrides(named: &NamedGraph, out: &mut Vec<Diagnostic>) {
     for path in named.set.keys() {
-        let node = path.rsplit_once('.').map_or(path.as_str(), |(node, _)| node);
+        let Some((node, _)) = path.rsplit_once('.') else {
+            let message = format!("`{path}` cannot be set: it names no port");
+            let error = Diagnostic::error("ST0207", message, named.graph.file_place());
+            out.push(error.help("write the name of a node, a dot, and the name of its port"));
+            continue;
+        };
         if !named.graph.nodes.contains_key(node) {
             let message = format!("`{path}` cannot be set: graph `{}` has no node `{node}`", named.name);
             let names: Vec<&str> = named.graph.nodes.keys().map(String::as_str).collect();

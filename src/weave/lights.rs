@@ -45,7 +45,9 @@ pub(crate) fn follow(collected: &Collected, out: &mut Vec<Diagnostic>) -> Lights
             }
         }
         if shadow {
-            if reached.is_empty() && definition.inputs().any(needs_light) {
+            // A light that is misspelt has been reported.
+            let unknown = collected.incoming[i].iter().any(|l| nodes[collected.links[*l].from].is_doubtful());
+            if reached.is_empty() && !unknown && !node.is_doubtful() && definition.inputs().any(needs_light) {
                 let message = format!("the shadow `{}` is on no light", node.id);
                 let help = format!("link a light to it: `\"LIGHT -> {}\"`", short(&node.id));
                 out.push(Diagnostic::error("ST0211", message, node.place.clone()).help(help));

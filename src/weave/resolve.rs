@@ -5,6 +5,8 @@
 //! the whole assignment must be the only best one; then, for a port that has no default, what lies further up the
 //! links; then the port's default. A tie is an error that lists the candidates, never a guess.
 
+mod words;
+
 use std::collections::{BTreeMap, BTreeSet, VecDeque};
 use std::rc::Rc;
 use std::sync::Arc;
@@ -15,7 +17,7 @@ use super::lights::{Lights, short};
 use super::{Found, Link, Node, Wire, instantiated, is_light, is_light_port, is_shadow};
 use crate::diagnostic::Diagnostic;
 use crate::node::{Default, Definition, Port};
-use crate::semantic::{Chain, Conversions, Kind, Quantity, Shape, Type, Value};
+use crate::semantic::{Chain, Conversions, Kind, Quantity, Shape, Value};
 
 /// A port whose name is not that of the output or of its node.
 const OTHER_ROLE: u64 = 1 << 32;
@@ -113,10 +115,11 @@ impl Work<'_> {
     }
 
     fn pinned(&self, incoming: &[&Link], inputs: &mut BTreeMap<String, Wire>, out: &mut Vec<Diagnostic>) {
+        let mut pinned = BTreeSet::new();
         for link in incoming {
             let Some(name) = &link.to_port else { continue };
             let Some(port) = self.definition.input(name) else { continue };
-            if inputs.contains_key(name) {
+            if !pinned.insert(name) {
                 let message = format!("two links lead to `{}.{name}`", self.found.id);
                 let help = "remove one, or combine the two with a node such as `add` or `mix_values`";
                 out.push(Diagnostic::error("ST0212", message, link.place.clone()).help(help));
@@ -129,32 +132,6 @@ impl Work<'_> {
                 Some(offer) => drop(inputs.insert(name.clone(), self.wire(link.from, &offer))),
                 None => out.push(self.mismatch(link, port)),
             }
-        }
-    }
-
-    fn mismatch(&self, link: &Link, port: &Port) -> Diagnostic {
-        let from = self.done[link.from].as_ref().expect("checked by the caller");
-        let outputs: Vec<&Port> = from
-            .definition
-            .main
-            .outputs
-            .iter()
-            .filter(|o| link.from_port.as_ref().is_none_or(|n| *n == o.name))
-            .collect();
-        let offered = outputs.iter().map(|o| format!("`{}` is {}", o.name, from.output_type(o))).collect::<Vec<_>>();
-        let message = format!(
-            "`{}` cannot feed `{}.{}`: {}, and {} is wanted",
-            from.id,
-            self.found.id,
-            port.name,
-            offered.join(", "),
-            port.ty
-        );
-        let help = outputs.first().and_then(|o| missing_conversion(&from.output_type(o), &port.ty));
-        let error = Diagnostic::error("ST0213", message, link.place.clone());
-        match help {
-            Some(help) => error.help(help),
-            None => error.help("put a node between them that makes the one from the other"),
         }
     }
 
@@ -248,64 +225,6 @@ impl Work<'_> {
         self.definition.header.commutative && swap(chosen[row]) && swap(other)
     }
 
-    fn contributes_nothing(&self, link: &Link, free: &[&Port]) -> Diagnostic {
-        let from = self.done[link.from].as_ref().expect("only resolved neighbours are open");
-        let message = format!("`{}` contributes nothing to `{}`", from.id, self.found.id);
-        let mut error = Diagnostic::error("ST0215", message, link.place.clone());
-        let given =
-            from.definition.main.outputs.iter().filter(|o| link.from_port.as_ref().is_none_or(|n| *n == o.name));
-        for output in given {
-            error = error.note(format!("`{}.{}` is {}", from.id, output.name, from.output_type(output)));
-        }
-        for port in free {
-            error = error.note(format!("`{}.{}` wants {}", self.found.id, port.name, port.ty));
-        }
-        if free.is_empty() {
-            let nothing = if is_light(&from.definition) { "takes no light" } else { "has no free input" };
-            error = error.note(format!("`{}` ({}) {nothing}", self.found.id, self.definition.kind));
-        }
-        let primary = from.definition.main.outputs.first().map(|o| from.output_type(o));
-        let near = free.iter().find_map(|p| missing_conversion(primary.as_ref()?, &p.ty));
-        error.help(near.unwrap_or_else(|| "remove the link, or put a node between them that converts".to_owned()))
-    }
-
-    #[allow(clippy::too_many_arguments, reason = "one message about one assignment")]
-    fn ambiguous(
-        &self,
-        open: &[&Link],
-        free: &[&Port],
-        offers: &[Vec<Option<Offer>>],
-        cost: &[Vec<u64>],
-        row: usize,
-        one: usize,
-        other: usize,
-    ) -> Diagnostic {
-        let from = &self.collected.nodes[open[row].from];
-        let message = format!(
-            "`{}` could feed `{}` or `{}` of `{}`, and nothing tells which",
-            from.id, free[one].name, free[other].name, self.found.id
-        );
-        let mut error = Diagnostic::error("ST0216", message, open[row].place.clone());
-        let mut candidates: Vec<usize> = (0..free.len()).filter(|c| cost[row][*c] < NEVER).collect();
-        candidates.sort_by_key(|c| cost[row][*c]);
-        let equal = |c: &usize| *c == one || *c == other || cost[row][*c] == cost[row][one];
-        let tied: Vec<usize> = candidates.iter().copied().filter(equal).take(4).collect();
-        for column in candidates {
-            let Some(offer) = &offers[row][column] else { continue };
-            error = error.note(format!(
-                "candidate `{}`, {}, conversion cost {}",
-                free[column].name, free[column].ty, offer.chain.cost
-            ));
-        }
-        let (source, target) = (short(&from.id), short(&self.found.id));
-        let text = match &open[row].from_port {
-            Some(port) => format!("{source}.{port}"),
-            None => source.to_owned(),
-        };
-        let pins: Vec<String> = tied.iter().map(|c| format!("`\"{text} -> {target}.{}\"`", free[*c].name)).collect();
-        error.help(format!("pin one: {}", pins.join(" or ")))
-    }
-
     /// Ports that nothing feeds yet.
     fn rest(&self, inputs: &mut BTreeMap<String, Wire>, blind: bool, incoming: &[&Link], out: &mut Vec<Diagnostic>) {
         let definition = self.definition.clone();
@@ -389,34 +308,6 @@ impl Work<'_> {
         Ok(None)
     }
 
-    fn missing(&self, port: &Port, incoming: &[&Link]) -> Diagnostic {
-        let message = format!("nothing feeds `{}` of `{}`, which needs {}", port.name, self.found.id, port.ty);
-        let place = self.found.place.clone().port(&port.name);
-        let mut error = Diagnostic::error("ST0217", message, place);
-        for link in incoming.iter().filter(|l| l.to_port.is_none()).take(4) {
-            let Some(node) = &self.done[link.from] else { continue };
-            for output in &node.definition.main.outputs {
-                error = error.note(format!("`{}.{}` gives {}", node.id, output.name, node.output_type(output)));
-            }
-        }
-        let target = short(&self.found.id);
-        let name = &port.name;
-        let link = format!("link a node to it: `\"NODE -> {target}.{name}\"`");
-        let example = match port.ty.shape {
-            Shape::Texture => {
-                return error.help(format!("name an image file: `params: {{\"{name}\": \"picture.png\"}}`"));
-            }
-            Shape::F32(1) | Shape::Generic => "0.5",
-            Shape::F32(2) => "(0.5, 0.5)",
-            Shape::F32(3) => "(0.5, 0.5, 0.5)",
-            Shape::F32(4) => "(0.5, 0.5, 0.5, 1)",
-            Shape::I32 | Shape::U32 => "3",
-            Shape::Bool => "true",
-            _ => return error.help(link),
-        };
-        error.help(format!("{link}, or give it a value: `params: {{\"{name}\": {example}}}`"))
-    }
-
     /// The shape of `T`: as wide as the widest thing linked or given to a generic input.
     fn generic(&self, inputs: &BTreeMap<String, Wire>, out: &mut Vec<Diagnostic>) -> Option<Shape> {
         let choices = &self.definition.header.generic;
@@ -472,30 +363,6 @@ impl Work<'_> {
 
 fn list(items: impl Iterator<Item = String>) -> String {
     items.collect::<Vec<_>>().join(", ")
-}
-
-/// What a person has to insert where a conversion would lose something.
-fn missing_conversion(from: &Type, to: &Type) -> Option<String> {
-    let (a, b) = (from.meaning, to.meaning);
-    let wide = from.shape.width().unwrap_or(1);
-    let narrow = to.shape.width().unwrap_or(1);
-    let numeric = |ty: &Type| matches!(ty.shape, Shape::F32(_));
-    let text = match (a.kind, b.kind) {
-        (Kind::Color, Kind::Scalar | Kind::Number) if narrow == 1 => {
-            "insert `luminance`, or `separate3` for one channel"
-        }
-        (Kind::Point, Kind::Vector | Kind::Direction) => "insert `subtract` to say from which point it leads",
-        (Kind::Scalar | Kind::Number, Kind::Bool) => "insert `compare` to say from which value it is true",
-        (Kind::Color, Kind::Color) if a.quantity == Quantity::Radiance => {
-            "radiance is seen, not reflected: take the colour from before the surface node"
-        }
-        (_, Kind::Color) if b.quantity == Quantity::Radiance => "insert a surface node, such as `lambert` or `unlit`",
-        _ if !numeric(from) || !numeric(to) => return None,
-        _ if wide > narrow => return Some(format!("insert `separate{wide}` to choose components")),
-        _ if wide < narrow => return Some(format!("insert `combine{narrow}` to build it from components")),
-        _ => "insert a maths node such as `multiply_add`: what it gives may mean anything",
-    };
-    Some(text.to_owned())
 }
 
 /// Whether a node is part of a light program.

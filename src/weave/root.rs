@@ -2,12 +2,15 @@
 
 use std::rc::Rc;
 
-use super::collect::{Collected, suggest};
+use super::collect::{Collected, identifier, suggest};
 use super::resolve::is_lamp;
 use super::{Node, is_lit, is_surface};
 use crate::compile::{NamedGraph, Output};
 use crate::diagnostic::{Diagnostic, Place};
 use crate::semantic::{Chain, Conversions, Kind, Meaning, Shape, Type};
+
+/// Most nodes that one message names.
+const MAX_NAMED: usize = 8;
 
 /// What is written.
 pub enum Root {
@@ -138,7 +141,14 @@ fn seen(
         // Nodes that are misspelt, or whose links are, are not to be chosen between.
         _ if shown.iter().any(|(i, _)| collected.nodes[*i].is_doubtful()) => None,
         [(first, _), ..] => {
-            let names: Vec<String> = shown.iter().map(|(i, _)| format!("`{}`", collected.nodes[*i].id)).collect();
+            let names = shown.iter().map(|(i, _)| format!("`{}`", collected.nodes[*i].id));
+            let mut names: Vec<String> = names.collect();
+            names.sort_unstable();
+            if names.len() > MAX_NAMED {
+                let more = names.len() - MAX_NAMED;
+                names.truncate(MAX_NAMED);
+                names.push(format!("{more} more"));
+            }
             let message = format!("{} are all left without a follower: which one is seen?", names.join(", "));
             let help = format!(
                 "say `output: \"{}\"`, or combine them with `mix_surface` or `add_surface`",
@@ -160,7 +170,6 @@ fn exports(
     let named = &graphs[index];
     let own: Vec<usize> = (0..collected.nodes.len()).filter(|i| collected.nodes[*i].graph == index).collect();
     let feeds: std::collections::BTreeSet<usize> = collected.links.iter().map(|l| l.from).collect();
-    let named_id = |node: &str| super::collect::identifier(graphs, index, node);
     let Some(end) = &named.graph.output else {
         return Some(
             own.into_iter()
@@ -169,7 +178,8 @@ fn exports(
                 .collect(),
         );
     };
-    let found = own.iter().copied().find(|i| collected.nodes[*i].id == named_id(&end.node));
+    let id = identifier(graphs, index, &end.node);
+    let found = own.iter().copied().find(|i| collected.nodes[*i].id == id);
     if found.is_none() {
         let muted = named.graph.nodes.get(&end.node).is_some_and(|n| n.muted);
         let why = if muted { "is muted" } else { "is not among its nodes" };
@@ -202,7 +212,7 @@ fn finish(
         let doubtful = collected.nodes.iter().any(super::Found::is_doubtful);
         if is_lit(&node.definition) && node.lights.is_empty() && !doubtful {
             let message = format!("no light shines on `{}`: only its ambient part is seen", node.id);
-            let help = "give a light graph as well: `shadetree generate LIGHT.ron SURFACE.ron`";
+            let help = "link a light to it, give the file of a light as well, or add a light to the scene";
             out.push(Diagnostic::warning("ST0223", message, node.place.clone()).help(help));
         }
         return Some(Root::Surface { node: index });

@@ -40,6 +40,7 @@ fn generate(source: &std::sync::Arc<SourceText>, catalog: &Catalog) -> usize {
 
 fn nodes(c: &mut Criterion) {
     let catalog = Catalog::embedded();
+    phases(&catalog);
     let mut group = c.benchmark_group("read + weave + emit + validate");
     group.sample_size(20);
     for count in [20, 200, 2_000, 10_000] {
@@ -50,6 +51,25 @@ fn nodes(c: &mut Criterion) {
         });
     }
     group.finish();
+}
+
+/// Where the time goes, once per size, in milliseconds.
+fn phases(catalog: &Catalog) {
+    println!("{:>7} {:>9} {:>9} {:>9} {:>11}", "nodes", "read", "compile", "validate", "WGSL bytes");
+    for count in [200, 2_000, 10_000] {
+        let source = SourceText::new("bench.ron", text(count));
+        let start = std::time::Instant::now();
+        let graph = graph::read(&source).0.expect("a sound graph");
+        let read = start.elapsed();
+        let named = NamedGraph { name: "bench".into(), graph, ..NamedGraph::default() };
+        let compiled = compile(&[named], catalog, &Options::default()).0.expect("a sound graph");
+        let woven = start.elapsed();
+        shadetree::verify::verify(&compiled.module).expect("sound WGSL");
+        let all = start.elapsed();
+        let ms = |d: std::time::Duration| d.as_secs_f64() * 1e3;
+        let bytes = compiled.module.wgsl.len();
+        println!("{count:>7} {:>9.2} {:>9.2} {:>9.2} {bytes:>11}", ms(read), ms(woven - read), ms(all - woven));
+    }
 }
 
 /// Peak resident memory of the process so far, in MB, where the system tells.

@@ -108,7 +108,7 @@ fn every_mistake_is_told_in_one_reading() {
             "ST0054 7:17 the node `none` does not say what it is",
             "ST0010 8:19 the field `kynd` is not known here",
             "ST0054 8:18 the node `glass` does not say what it is",
-            "ST0056 11:13 the link names the node `niose`, which is not in the graph",
+            "ST0056 11:14 the link names the node `niose`, which is not in the graph",
             "ST0057 11:31 the link leads from `noise` to itself",
             "ST0055 11:49 `noise glass` has no `->`",
             "ST0008 11:64 expected a text in quotes, found the number `7`",
@@ -120,7 +120,7 @@ fn every_mistake_is_told_in_one_reading() {
     );
     let help = |code: &str| found.iter().find(|d| d.code == code && d.help.is_some()).and_then(|d| d.help.clone());
     assert_eq!(help("ST0010").as_deref(), Some("did you mean `kind`?"));
-    assert_eq!(help("ST0056").as_deref(), Some("did you mean `glass`?"));
+    assert_eq!(help("ST0056").as_deref(), Some("did you mean `noise`?"));
 }
 
 #[test]

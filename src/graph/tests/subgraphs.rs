@@ -85,10 +85,10 @@ fn what_is_not_offered_is_told_with_what_is() {
     assert_eq!(
         found,
         [
-            "ST0064 1:82 `mox.c` names the node `s/mox`, which is not in the subgraph",
-            "ST0064 1:70 the subgraph `s` exposes no parameter `scal`",
-            "ST0064 2:27 the subgraph `s` exposes no output `grian`",
-            "ST0065 2:17 it is not clear which input of the subgraph `s` is meant",
+            "ST0064 1:62 the subgraph `s` (stone.ron) exposes no parameter `scal`",
+            "ST0064 1:73 `mox.c` names the node `mox`, which is not in the subgraph (stone.ron)",
+            "ST0065 2:23 it is not clear which input of the subgraph `s` (stone.ron) is meant",
+            "ST0064 2:30 the subgraph `s` (stone.ron) exposes no output `grian`",
         ]
         .map(String::from)
     );

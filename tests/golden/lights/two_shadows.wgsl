@@ -46,6 +46,8 @@ struct ReceiverPlane {
     distance: f32,
     /// Change over the whole map: of distance in metres (parallel) or of 1 / distance relative to here (perspective).
     slope: vec2f,
+    /// Distance per metre across, at the shaded point.
+    rise: vec2f,
 }
 
 struct SpotLight {
@@ -79,7 +81,10 @@ fn cone_falloff(cosine: f32, inner_angle: f32, outer_angle: f32) -> f32 {
     return smoothstep(outer, inner, cosine);
 }
 
+const MAX_RETREAT: f32 = 8.0;
 const MIN_RECEIVER_COSINE: f32 = 0.015625;
+const MAX_FOLD: f32 = 0.125;
+const MAX_FOLD_DEPTH: f32 = 8.0;
 
 fn light_position(space: LightSpace, point: vec3f) -> vec3f {
     return (space.world_to_light * vec4f(point, 1.0)).xyz;
@@ -111,7 +116,7 @@ fn receiver_plane(space: LightSpace, position: vec3f, normal: vec3f) -> Receiver
     // A normal of length zero says nothing about the plane: it counts as facing the light.
     let bounded = max(max(abs(facing), least), 1e-30) * select(1.0, -1.0, facing < 0.0);
     let ray_per_uv = vec2f(2.0, -2.0) / space.projection.xy;
-    return ReceiverPlane(light_map_uv(space, position), position.z, n.xy * ray_per_uv / bounded);
+    return ReceiverPlane(light_map_uv(space, position), position.z, n.xy * ray_per_uv / bounded, n.xy / bounded);
 }
 
 fn receiver_depth(space: LightSpace, plane: ReceiverPlane, uv: vec2f) -> f32 {
@@ -119,7 +124,10 @@ fn receiver_depth(space: LightSpace, plane: ReceiverPlane, uv: vec2f) -> f32 {
     let parallel = plane.distance - change;
     // Rays that run away along the plane are held within four times the distance.
     let perspective = plane.distance / max(1.0 + change, 0.25);
-    return saturate(light_linear_depth(space, select(parallel, perspective, space.projection.z > 0.5)));
+    let is_perspective = space.projection.z > 0.5;
+    let across = length((uv - plane.uv) * 2.0 / space.projection.xy) * select(1.0, plane.distance, is_perspective);
+    let distance = min(select(parallel, perspective, is_perspective), plane.distance + MAX_RETREAT * across);
+    return saturate(light_linear_depth(space, distance));
 }
 
 fn receiver_slope(space: LightSpace, plane: ReceiverPlane) -> vec2f {
@@ -128,6 +136,13 @@ fn receiver_slope(space: LightSpace, plane: ReceiverPlane) -> vec2f {
 
 fn receiver_rounding(slope_per_texel: vec2f) -> f32 {
     return (slope_per_texel.x + slope_per_texel.y) * (1.0 / 64.0) + 1e-6;
+}
+
+fn receiver_curvature(space: LightSpace, plane: ReceiverPlane, size: vec2f, texels: f32) -> f32 {
+    let texel = 2.0 / (space.projection.xy * size) * select(1.0, plane.distance, space.projection.z > 0.5);
+    // The rise of a plane per metre across is the tangent of its angle, whose derivative is 1 + tangent^2.
+    let steep = dot(plane.rise, plane.rise);
+    return MAX_FOLD * min(1.0 + steep, MAX_FOLD_DEPTH) * texels * max(texel.x, texel.y) * space.depth.z;
 }
 
 fn geometric_normal(point: vec3f) -> vec3f {
@@ -171,7 +186,8 @@ fn pcf_shadow(
     let plane = receiver_plane(space, position, normal);
     let size = vec2f(textureDimensions(map));
     let slope = receiver_slope(space, plane) / size;
-    let margin = bias * space.depth.z + receiver_rounding(slope);
+    let curvature = receiver_curvature(space, plane, size, 0.5 * f32(WIDTH) + 0.5);
+    let margin = bias * space.depth.z + receiver_rounding(slope) + curvature;
     // Bilinear taps on a grid share their texels: each texel is compared once, with the kernel convolved with the tent.
     let corner = plane.uv * size - 0.5;
     let part = fract(corner);
@@ -211,7 +227,9 @@ fn variance_shadow(
     let position = light_position(space, point);
     let uv = light_map_uv(space, position);
     let moments = textureSampleGrad(map, map_sampler, uv, dpdx(uv), dpdy(uv)).xy;
-    let depth = saturate(light_linear_depth(space, position.z));
+    // Beyond the far plane the map holds depths above 1, if its format can: there the receiver is lit where it is what
+    // the map shows, and in the shadow of anything nearer.
+    let depth = min(max(light_linear_depth(space, position.z), 0.0), max(moments.x, 1.0));
     // 1e-12 keeps 0 / 0 out where both the variance and the difference vanish.
     let variance = max(moments.y - moments.x * moments.x, max(minimum_variance, 1e-12));
     let behind = max(depth - moments.x, 0.0);

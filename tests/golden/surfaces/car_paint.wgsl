@@ -66,6 +66,16 @@ fn hash_to_unit3(hash: vec3u) -> vec3f {
     return vec3f(hash >> vec3u(8u)) * 5.9604645e-8;
 }
 
+fn pixel_width3(x: vec3f) -> vec3f {
+    let across = dpdx(x);
+    let down = dpdy(x);
+    return sqrt(across * across + down * down);
+}
+
+fn detail_left(width: f32) -> f32 {
+    return clamp(2.0 - 4.0 * width, 0.0, 1.0);
+}
+
 const MATTE_RADIANCE: f32 = 0.31830987;
 
 fn normal_reflectance(ior: f32) -> f32 {
@@ -120,7 +130,11 @@ fn white_noise(position: vec3f, scale: f32, seed: f32) -> WhiteNoisePoint {
     // A face that lies exactly on a cube boundary would be torn between both cubes by rounding.
     let cell = floor(position * scale + 1e-3);
     let first = pcg3d(hash_cell3(cell) ^ vec3u(bitcast<u32>(i32(seed))));
-    return WhiteNoisePoint(hash_to_unit(first.x), hash_to_unit3(pcg3d(first)));
+    let width = pixel_width3(position * scale);
+    // Full contrast down to cubes of two pixels, none below one: a pixel would see one of many cubes at random.
+    let contrast = detail_left(0.5 * max(width.x, max(width.y, width.z)));
+    let value = 0.5 + contrast * (hash_to_unit(first.x) - 0.5);
+    return WhiteNoisePoint(value, 0.5 + contrast * (hash_to_unit3(pcg3d(first)) - 0.5));
 }
 
 fn color_ramp2(factor: f32, low: vec3f, high: vec3f, start: f32, end: f32) -> vec3f {
