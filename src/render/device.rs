@@ -117,6 +117,12 @@ impl Device {
         check(what, u64::from(width.max(height)), u64::from(self.limits.max_texture_dimension_2d), "texels on a side")
     }
 
+    /// Fails if a uniform block of this size is impossible.
+    pub(super) fn check_uniform(&self, what: &str, size: u64) -> Result<(), RenderError> {
+        let block = format!("{UNIFORM_BLOCK} `{what}`");
+        check(&block, size, self.limits.max_uniform_buffer_binding_size, "bytes")
+    }
+
     /// A buffer with `contents`, padded to a multiple of 4 bytes.
     pub(super) fn buffer(
         &self,
@@ -127,8 +133,7 @@ impl Device {
         let size = (contents.len() as u64).next_multiple_of(4).max(16);
         check(what, size, self.limits.max_buffer_size, "bytes")?;
         if usage.contains(wgpu::BufferUsages::UNIFORM) {
-            let block = format!("{UNIFORM_BLOCK} `{what}`");
-            check(&block, size, self.limits.max_uniform_buffer_binding_size, "bytes")?;
+            self.check_uniform(what, size)?;
         }
         let buffer = self.device.create_buffer(&wgpu::BufferDescriptor {
             label: Some(what),

@@ -31,6 +31,8 @@ pub(super) fn main_spec(
     target: Target,
 ) -> Result<Spec, RenderError> {
     let module = &draw.shader.module;
+    // Before the driver sees the shader: some refuse it with words of their own.
+    device.check_uniform("parameters", u64::from(module.parameter_bytes))?;
     let filterable = wgpu::TextureSampleType::Float { filterable: true };
     let sampler = BindingType::Sampler;
     let mut bindings = Vec::new();

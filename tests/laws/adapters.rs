@@ -1,6 +1,6 @@
 //! The same laws in every format of moments, and the same numbers on every adapter.
 
-use glam::{DMat4, DVec3};
+use glam::DMat4;
 use shadetree::reference::{Weights, edge_visibility, kernel};
 use shadetree::render::{AdapterOptions, Gpu, RenderError, adapters};
 
