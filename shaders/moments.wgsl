@@ -47,10 +47,12 @@ fn vs_main(@location(0) position: vec3f) -> Varying {
 
 @fragment
 fn fs_main(fragment_in: Varying) -> @location(0) vec2f {
-    let depth = saturate(light_linear_depth(light, fragment_in.in_light.z));
+    // Surfaces that run through the far plane go on beyond it: a filter across it would take a bend for an edge.
+    let depth = max(light_linear_depth(light, fragment_in.in_light.z), 0.0);
 //#if slope == on
     // Depths in [0, 1] have a mean square of at most their mean.
-    let mean_square = min(depth * depth + texel_variance(fragment_in.in_light), depth);
+    let square = depth * depth;
+    let mean_square = min(square + texel_variance(fragment_in.in_light), max(depth, square));
 //#else
     let mean_square = depth * depth;
 //#end

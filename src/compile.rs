@@ -77,7 +77,25 @@ fn compile_unlimited(
     let program = build(&woven, options.bake);
     let (module, plan, mut found) = emit(&program, catalog, &title(graphs));
     diagnostics.append(&mut found);
+    diagnostics.extend(too_many_parameters(&module, graphs));
     if has_errors(&diagnostics) { (None, diagnostics) } else { (Some(Compiled { module, plan }), diagnostics) }
+}
+
+/// The largest uniform block that every WebGPU device takes, in bytes (limit `maxUniformBufferBindingSize`).
+const MAX_PARAMETER_BYTES: u32 = 64 << 10;
+
+fn too_many_parameters(module: &Module, graphs: &[NamedGraph]) -> Option<Diagnostic> {
+    let bytes = module.parameter_bytes;
+    if bytes <= MAX_PARAMETER_BYTES {
+        return None;
+    }
+    let message = format!(
+        "the {} parameters take {bytes} bytes, and {MAX_PARAMETER_BYTES} is all that a device must take",
+        module.parameters.len()
+    );
+    let place = graphs.first().map_or_else(Place::default, |g| g.graph.file_place());
+    let help = "`--bake` writes them into the shader as constants; or use fewer nodes";
+    Some(Diagnostic::error("ST0301", message, place).help(help))
 }
 
 /// The names of the graphs, for the first line of the text.

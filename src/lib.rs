@@ -15,6 +15,7 @@ pub mod verify;
 pub mod export;
 pub mod reflect;
 pub mod scene;
+pub mod reference;
 #[cfg(feature = "render")]
 pub mod render;
 pub mod explain;

@@ -5,6 +5,7 @@ use shadetree::diagnostic::SourceText;
 use shadetree::graph;
 
 use crate::support::{compiled, expect_file, files, graph_file, graph_text, no_strays, text};
+use crate::tint;
 
 fn examples() -> Vec<std::path::PathBuf> {
     let mut all = files("graphs/lights", "ron");
@@ -39,6 +40,10 @@ fn examples_give_the_expected_wgsl() {
     expect_file(name, compiled(&pair, &Options::default()).module.wgsl.as_bytes());
     known.push(name.to_owned());
     no_strays("tests/golden", "wgsl", &known);
+    let texts: Vec<(String, String)> = known.iter().map(|n| (n.clone(), text(n.as_ref()).text.clone())).collect();
+    if let Some(complaints) = tint::complaints(texts.iter().map(|(n, t)| (n.as_str(), t.as_str()))) {
+        assert!(complaints.is_empty(), "{}", complaints.join("\n"));
+    }
 }
 
 /// Compiling again, and from a file whose lines are in another order, gives the same bytes.
@@ -112,4 +117,27 @@ fn baking_leaves_constants() {
         compiled(&[graph_file("graphs/surfaces/marble.ron".as_ref())], &Options { bake: true, ..Options::default() })
             .module;
     assert!(module.parameters.is_empty() && !module.wgsl.contains("parameters."), "{}", module.wgsl);
+}
+
+/// A layer without lights of its own is lit as what lies under it; every light counts once, with its own shadows.
+#[test]
+fn layers_are_lit_as_what_lies_under_them() {
+    let text = r#"Graph(version: 1, nodes: {
+        "spot": (kind: "spot_light"), "lamp": (kind: "point_light"), "a": (kind: "hard_shadow"), "b": (kind: "variance_shadow"),
+        "matte": (kind: "lambert"), "shiny": (kind: "ggx"), "both": (kind: "mix_surface"), "coat": (kind: "clear_coat"),
+    }, links: [
+        "spot -> a", "spot -> b", "a -> matte", "b -> matte", "lamp -> shiny", "matte -> both.first", "shiny -> both.second",
+        "both -> coat",
+    ])"#;
+    let wgsl = compiled(&[graph_text("layers", &SourceText::new("layers.ron", text))], &Options::default()).module.wgsl;
+    let body = &wgsl[wgsl.find("fn fs_main").expect("a fragment stage")..];
+    assert!(body.contains("spot.irradiance * a_visibility * b_visibility"), "{body}");
+    assert_eq!(body.matches(" = clear_coat(").count(), 2, "{body}");
+    assert_eq!(body.matches(" = lambert(").count(), 1, "{body}");
+    assert_eq!(body.matches(" = ggx(").count(), 1, "{body}");
+    assert!(
+        body.contains("coat_lamp_radiance + coat_ambient_radiance")
+            || body.contains("coat_spot_radiance + coat_ambient_radiance"),
+        "{body}"
+    );
 }

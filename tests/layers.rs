@@ -22,6 +22,7 @@ const ALLOWED: &[(&str, &[&str])] = &[
     ("report", &["diagnostic"]),
     ("explain", &["ron", "graph", "node", "scene"]),
     ("scene", &["diagnostic", "semantic", "ron"]),
+    ("reference", &[]),
     ("render", &["semantic", "module", "plan", "scene", "compile"]),
 ];
 

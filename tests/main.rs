@@ -1,7 +1,15 @@
 //! All tests that use the package from outside, in one binary.
+#![allow(unreachable_pub, reason = "modules of one test binary see each other")]
 
 mod cli;
+mod errors;
 mod graphs;
 mod hostile;
+#[cfg(feature = "render")]
+mod laws;
+mod layers;
 mod matrix;
+#[cfg(feature = "render")]
+mod stage;
 mod support;
+mod tint;

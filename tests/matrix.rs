@@ -1,15 +1,18 @@
 //! Every light under every shadow on every surface, and every node by itself with every option: naga accepts all.
-//! The texts are left in a folder for Tint to judge.
+//! Tint accepts all as well.
 
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
 
-use shadetree::compile::{NamedGraph, Options};
+use shadetree::compile::{Compiled, NamedGraph, Options};
 use shadetree::diagnostic::SourceText;
+use shadetree::module::Module;
 use shadetree::node::{Definition, Port};
+use shadetree::plan::Plan;
 use shadetree::semantic::{Kind, Shape};
 
-use crate::support::{catalog, compiled, graph_text, root};
+use crate::support::{catalog, compiled, graph_text, prove};
+use crate::tint;
 
 /// Kinds of a category, sorted.
 fn kinds(category: &str) -> Vec<String> {
@@ -17,11 +20,11 @@ fn kinds(category: &str) -> Vec<String> {
     catalog().kinds().filter(of).map(str::to_owned).collect()
 }
 
-/// Leaves a module for Tint.
-pub fn keep_for_tint(name: &str, wgsl: &str) {
-    let folder = root().join("target/emitted");
-    std::fs::create_dir_all(&folder).expect("create the folder");
-    std::fs::write(folder.join(format!("{name}.wgsl")), wgsl).expect("write");
+fn accepted_by_tint(modules: &[(String, String)]) {
+    let listed = modules.iter().map(|(name, wgsl)| (name.as_str(), wgsl.as_str()));
+    if let Some(complaints) = tint::complaints(listed) {
+        assert!(complaints.is_empty(), "{}", complaints.join("\n"));
+    }
 }
 
 /// A custom node that gives exactly what a port wants.
@@ -93,6 +96,7 @@ fn variations(definition: &Definition) -> Vec<BTreeMap<String, String>> {
 
 #[test]
 fn every_node_weaves_alone_with_every_option_and_width() {
+    let mut modules = Vec::new();
     for kind in catalog().kinds() {
         let file = catalog().get(kind).expect("listed");
         let default = file.definition(&BTreeMap::new()).expect("embedded nodes are sound");
@@ -114,10 +118,32 @@ fn every_node_weaves_alone_with_every_option_and_width() {
             for width in widths {
                 let name = format!("{kind}-{}-{}", options.values().cloned().collect::<String>(), width.unwrap_or(0));
                 let module = compiled(&[alone(&definition, &options, width)], &Options::default()).module;
-                keep_for_tint(&format!("node-{name}"), &module.wgsl);
+                modules.push((name, module.wgsl));
             }
         }
     }
+    accepted_by_tint(&modules);
+}
+
+/// Every fixed pass with every choice of each option: naga and Tint accept it.
+#[test]
+fn every_pass_is_accepted() {
+    let mut modules = Vec::new();
+    for name in catalog().pass_names() {
+        let pass = catalog().pass(name).expect("listed").expect("embedded passes are sound");
+        for option in &pass.options {
+            for choice in &option.choices {
+                let choices = BTreeMap::from([(option.name.clone(), choice.clone())]);
+                let wgsl = pass.text(&choices, catalog()).expect("embedded passes are sound");
+                let name = format!("{name}-{}-{choice}", option.name);
+                let compiled =
+                    Compiled { module: Module { wgsl: wgsl.clone(), ..Module::default() }, plan: Plan::default() };
+                prove(&compiled, &name);
+                modules.push((name, wgsl));
+            }
+        }
+    }
+    accepted_by_tint(&modules);
 }
 
 #[test]
@@ -125,7 +151,7 @@ fn every_light_under_every_shadow_on_every_surface() {
     let (lights, shadows, surfaces) = (kinds("light"), kinds("shadow"), kinds("surface"));
     assert!(lights.len() >= 3 && shadows.len() >= 3 && surfaces.len() >= 10, "{lights:?} {shadows:?} {surfaces:?}");
     let program = |text: String, name: &str| graph_text(name, &SourceText::new(format!("{name}.ron"), text));
-    let mut count = 0;
+    let mut modules = Vec::new();
     for light in &lights {
         let maps = catalog().get(light).expect("listed").header().expect("sound").space.is_some();
         for shadow in shadows.iter().map(Some).chain([None]) {
@@ -151,10 +177,10 @@ fn every_light_under_every_shadow_on_every_surface() {
                 let graphs = [program(chain.clone(), "light"), program(material, "material")];
                 let module = compiled(&graphs, &Options::default()).module;
                 let name = format!("{light}-{}-{surface}", shadow.map_or("none", String::as_str));
-                keep_for_tint(&format!("triple-{name}"), &module.wgsl);
-                count += 1;
+                modules.push((name, module.wgsl));
             }
         }
     }
-    println!("{count} triples of light, shadow and surface");
+    println!("{} triples of light, shadow and surface", modules.len());
+    accepted_by_tint(&modules);
 }

@@ -20,9 +20,18 @@ struct ReceiverPlane {
     slope: vec2f,
 }
 
+/// Steepest rise of a surface away from the light, in metres per metre across, that is followed beyond the shaded point
+/// (82.9 degrees). Near an outline the plane ends within the kernel, and followed further it would run behind whatever
+/// lies beyond, which would then seem to shadow it.
+const MAX_RETREAT: f32 = 8.0;
+
 /// A plane seen by the light at a smaller cosine than this (89.1 degrees) is treated as if seen at this cosine. Up to
-/// there the plane is followed exactly; beyond, next to no light arrives that could show the difference.
+/// there it is followed exactly towards the light; beyond, next to no light arrives that could show the difference.
 const MIN_RECEIVER_COSINE: f32 = 0.015625;
+
+/// Facets that meet at up to this angle (radians, 7 degrees: 51 around a circle) count as one curved surface, which does
+/// not shadow itself. What it costs is small: an occluder must be nearer by this part of the kernel's half width.
+const MAX_FOLD: f32 = 0.125;
 
 /// A world point in light coordinates, metres.
 fn light_position(space: LightSpace, point: vec3f) -> vec3f {
@@ -44,10 +53,11 @@ fn light_map_uv(space: LightSpace, position: vec3f) -> vec2f {
     return light_ray(space, position) * space.projection.xy * vec2f(0.5, -0.5) + 0.5;
 }
 
-/// Clip position for drawing a map. Clip depth only clips and orders; what is stored is `light_linear_depth`.
+/// Clip position for drawing a map. Clip depth only clips, at the near plane, and orders; what is stored is
+/// `light_linear_depth`. The far plane of a perspective does not clip: what lies beyond is drawn, too.
 fn light_clip_position(space: LightSpace, position: vec3f) -> vec4f {
     let xy = position.xy * space.projection.xy;
-    let perspective_z = space.depth.y * space.depth.z * (position.z - space.depth.x);
+    let perspective_z = position.z - space.depth.x;
     let parallel = vec4f(xy, light_linear_depth(space, position.z), 1.0);
     return select(parallel, vec4f(xy, perspective_z, position.z), space.projection.z > 0.5);
 }
@@ -71,15 +81,18 @@ fn receiver_plane(space: LightSpace, position: vec3f, normal: vec3f) -> Receiver
     return ReceiverPlane(light_map_uv(space, position), position.z, n.xy * ray_per_uv / bounded);
 }
 
-/// Linear depth, clamped to [0, 1], where the light's ray through `uv` meets the plane. Exact for both projections: with
-/// plane n.p = n0, a perspective ray (a, b, 1) z meets it at z = n0 / (n.x a + n.y b + n.z), a parallel one at
+/// Linear depth, clamped to [0, 1], where the light's ray through `uv` meets the plane. Exact for both projections, up to the
+/// bounds above: with plane n.p = n0, a perspective ray (a, b, 1) z meets it at z = n0 / (n.x a + n.y b + n.z), a parallel one at
 /// z = (n0 - n.x a - n.y b) / n.z; both are written relative to the shaded point, where rounding is least.
 fn receiver_depth(space: LightSpace, plane: ReceiverPlane, uv: vec2f) -> f32 {
     let change = dot(plane.slope, uv - plane.uv);
     let parallel = plane.distance - change;
     // Rays that run away along the plane are held within four times the distance.
     let perspective = plane.distance / max(1.0 + change, 0.25);
-    return saturate(light_linear_depth(space, select(parallel, perspective, space.projection.z > 0.5)));
+    let is_perspective = space.projection.z > 0.5;
+    let across = length((uv - plane.uv) * 2.0 / space.projection.xy) * select(1.0, plane.distance, is_perspective);
+    let distance = min(select(parallel, perspective, is_perspective), plane.distance + MAX_RETREAT * across);
+    return saturate(light_linear_depth(space, distance));
 }
 
 /// Size of the change of linear depth per unit of `uv` at the shaded point: |d depth/du|, |d depth/dv|.
@@ -91,6 +104,13 @@ fn receiver_slope(space: LightSpace, plane: ReceiverPlane) -> vec2f {
 /// 1/256 texel, so a stored plane may lie off by that part of its slope; float32 adds a few parts in 10^7.
 fn receiver_rounding(slope_per_texel: vec2f) -> f32 {
     return (slope_per_texel.x + slope_per_texel.y) * (1.0 / 64.0) + 1e-6;
+}
+
+/// Depth by which the facets around rise above the plane of the shaded one on a surface that curves towards the light,
+/// `texels` away on a map of `size`. Without it the inner side of a ring shows its facets as ribs.
+fn receiver_curvature(space: LightSpace, plane: ReceiverPlane, size: vec2f, texels: f32) -> f32 {
+    let texel = 2.0 / (space.projection.xy * size) * select(1.0, plane.distance, space.projection.z > 0.5);
+    return MAX_FOLD * texels * max(texel.x, texel.y) * space.depth.z;
 }
 
 /// Normal of the surface as it is drawn, from neighbouring pixels; not normalised, either side. Shading normals do not

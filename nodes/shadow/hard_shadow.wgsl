@@ -26,7 +26,8 @@ fn hard_shadow(
     let position = light_position(space, point);
     let plane = receiver_plane(space, position, normal);
     let size = vec2f(textureDimensions(map));
-    let margin = bias * space.depth.z + receiver_rounding(receiver_slope(space, plane) / size);
+    let rounding = receiver_rounding(receiver_slope(space, plane) / size) + receiver_curvature(space, plane, size, 0.5);
+    let margin = bias * space.depth.z + rounding;
     let center = (floor(plane.uv * size) + 0.5) / size;
     let depth = receiver_depth(space, plane, center) - margin;
     let visibility = textureSampleCompareLevel(map, map_sampler, center, depth);

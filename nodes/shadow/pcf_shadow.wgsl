@@ -42,12 +42,24 @@ fn pcf_shadow(
     let position = light_position(space, point);
     let plane = receiver_plane(space, position, normal);
     let size = vec2f(textureDimensions(map));
-    let slope = receiver_slope(space, plane) / size;
-//#if taps == hardware
-    // The sampler compares one depth with four texels, whose centres lie up to a texel to each side.
-    let margin = bias * space.depth.z + receiver_rounding(slope) + slope.x + slope.y;
+//#if width == 1
+//#if taps == nearest
+    let curvature = receiver_curvature(space, plane, size, 0.5);
 //#else
-    let margin = bias * space.depth.z + receiver_rounding(slope);
+    let curvature = receiver_curvature(space, plane, size, 1.0);
+//#end
+//#else
+//#if taps == nearest
+    let curvature = receiver_curvature(space, plane, size, 0.5 * f32(WIDTH));
+//#else
+    let curvature = receiver_curvature(space, plane, size, 0.5 * f32(WIDTH) + 0.5);
+//#end
+//#end
+    let margin = bias * space.depth.z + receiver_rounding(receiver_slope(space, plane) / size) + curvature;
+//#if taps == hardware
+    // The sampler compares one depth with four texels, whose centres lie up to a texel to each side: the depth is taken
+    // a texel away, where the plane is nearest to the light.
+    let nearer = sign(plane.slope) / size;
 //#end
 //#if width == 1
 //#if taps == bilinear
@@ -67,7 +79,7 @@ fn pcf_shadow(
     let uv = (floor(plane.uv * size) + 0.5) / size;
     let visibility = textureSampleCompareLevel(map, map_sampler, uv, receiver_depth(space, plane, uv) - margin);
 //#else
-    let depth = receiver_depth(space, plane, plane.uv) - margin;
+    let depth = receiver_depth(space, plane, plane.uv + nearer) - margin;
     let visibility = textureSampleCompareLevel(map, blending_sampler, plane.uv, depth);
 //#end
 //#else
@@ -119,10 +131,11 @@ fn pcf_shadow(
             let weight = kernel_x * weight_y;
 //#end
             let uv = (first + vec2f(f32(x + WIDTH / 2), f32(y + WIDTH / 2))) / size;
-            let depth = receiver_depth(space, plane, uv) - margin;
 //#if taps == hardware
+            let depth = receiver_depth(space, plane, uv + nearer) - margin;
             sum += weight * textureSampleCompareLevel(map, blending_sampler, uv, depth);
 //#else
+            let depth = receiver_depth(space, plane, uv) - margin;
             sum += weight * textureSampleCompareLevel(map, map_sampler, uv, depth);
 //#end
             total += weight;

@@ -38,7 +38,9 @@ fn variance_shadow(
 //#else
     let moments = textureSampleLevel(map, map_sampler, uv, 0.0).xy;
 //#end
-    let depth = saturate(light_linear_depth(space, position.z));
+    // Beyond the far plane the map holds depths above 1, if its format can: there the receiver is lit where it is what
+    // the map shows, and in the shadow of anything nearer.
+    let depth = min(max(light_linear_depth(space, position.z), 0.0), max(moments.x, 1.0));
     // 1e-12 keeps 0 / 0 out where both the variance and the difference vanish.
     let variance = max(moments.y - moments.x * moments.x, max(minimum_variance, 1e-12));
     let behind = max(depth - moments.x, 0.0);

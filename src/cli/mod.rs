@@ -19,6 +19,8 @@ mod output;
 mod picture;
 mod render;
 mod settings;
+#[cfg(feature = "render")]
+mod stage;
 mod watch;
 mod weave;
 
@@ -155,6 +157,17 @@ mod tests {
             let help = sub.render_long_help().to_string();
             assert!(help.contains("Examples:\n  shadetree "), "{}: {help}", sub.get_name());
         }
+    }
+
+    #[test]
+    fn the_built_in_files_are_in_order() {
+        use crate::diagnostic::SourceText;
+        let (scene, found) = crate::scene::read(&SourceText::new("stage.ron", include_str!("stage.ron")));
+        assert!(scene.is_some() && found.is_empty(), "{found:?}");
+        let starter = include_str!("starter.ron");
+        let (graph, found) = crate::graph::read(&SourceText::new("starter.ron", starter));
+        assert_eq!(found, []);
+        assert_eq!(graph.map(|g| crate::graph::write(&g)).as_deref(), Some(starter));
     }
 
     #[test]

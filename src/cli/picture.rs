@@ -1,7 +1,7 @@
 //! One picture: geometry and surroundings of the scene, shaders, the job, the file.
 
 use std::collections::{BTreeMap, BTreeSet};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::time::Duration;
 
 use super::assets::{each_mesh, environment_image, picture};
@@ -11,14 +11,12 @@ use super::load::{Document, Loader, relative};
 use super::output;
 use super::render::{Aov, Render, Samples, adapter_options};
 use super::settings::overrides;
+use super::stage;
 use super::weave::{Input, Shader, Weaver};
-use crate::compile::{Options, Output};
-use crate::diagnostic::{Diagnostic, Place, SourceText};
+use crate::compile::{NamedGraph, Options, Output};
+use crate::diagnostic::{Diagnostic, Place};
 use crate::render::{self, ColorFormat, Draw, Gpu, Job, Picture, RenderError, Surroundings, SurroundingsLevel, Texels};
-use crate::scene::{self, Environment, Scene, environment};
-
-/// What graphs are shown on when no scene is given.
-const STAGE: &str = include_str!("stage.ron");
+use crate::scene::{Environment, Scene, environment};
 
 pub(super) fn once(command: &Render, context: &Context, loader: &Loader, gpu: &mut Option<Gpu>) -> Outcome {
     let (catalog, found) = loader.catalog(&command.nodes)?;
@@ -116,7 +114,7 @@ fn full_name(job: &Job<'_>, light: &str) -> String {
 }
 
 /// The scene, the file that its paths count from, and a shader for each of its objects.
-fn shaders(command: &Render, weaver: &Weaver<'_>) -> Result<(Scene, std::path::PathBuf, Vec<Shader>), Failure> {
+fn shaders(command: &Render, weaver: &Weaver<'_>) -> Result<(Scene, PathBuf, Vec<Shader>), Failure> {
     match weaver.read(&command.files)? {
         Input::Scene(scene, file) => {
             if command.scene.is_some() {
@@ -127,10 +125,7 @@ fn shaders(command: &Render, weaver: &Weaver<'_>) -> Result<(Scene, std::path::P
         }
         Input::Graphs(graphs) => {
             let Some(file) = &command.scene else {
-                let (stage, found) = scene::read(&SourceText::new("stage.ron", STAGE));
-                weaver.context.report(&found);
-                let stage = stage.ok_or_else(|| Failure::from(Vec::new()))?;
-                return Ok((stage, "stage.ron".into(), vec![weaver.weave_graphs(graphs)?]));
+                return on_stage(graphs, weaver);
             };
             let document = weaver.loader.document(file)?;
             weaver.context.report(&weaver.loader.take_found());
@@ -156,6 +151,34 @@ fn shaders(command: &Render, weaver: &Weaver<'_>) -> Result<(Scene, std::path::P
             Ok((scene, file.clone(), vec![shader]))
         }
     }
+}
+
+/// Graphs on the stage. Those that bring no light get the stage's; then its other objects are seen by it, too.
+fn on_stage(mut graphs: Vec<NamedGraph>, weaver: &Weaver<'_>) -> Result<(Scene, PathBuf, Vec<Shader>), Failure> {
+    let (stage, found) = stage::read();
+    weaver.context.report(&found);
+    let stage = stage.ok_or_else(|| Failure::from(Vec::new()))?;
+    super::settings::apply(weaver.set, &mut graphs)?;
+    let (alone, found) = weaver.try_weave(&graphs, Vec::new());
+    let shaders = match alone {
+        Some(shader) if !shader.compiled.plan.lights.is_empty() => {
+            weaver.context.report(&found);
+            vec![shader]
+        }
+        _ => {
+            let lit = |surface: Vec<NamedGraph>| stage.lights.iter().cloned().chain(surface).collect::<Vec<_>>();
+            let (shown, mut found) = weaver.try_weave(&lit(graphs), vec![stage::SHOWN.to_owned()]);
+            // A surface that takes no light has no use for the stage's, which nobody asked for.
+            found.retain(|d| d.code != "ST0210");
+            weaver.context.report(&found);
+            let mut shaders = vec![shown.ok_or_else(|| Failure::from(Vec::new()))?];
+            for (object, surface) in &stage.others {
+                shaders.push(weaver.weave(&lit(vec![surface.clone()]), vec![object.clone()])?);
+            }
+            shaders
+        }
+    };
+    Ok((stage.scene, "stage.ron".into(), shaders))
 }
 
 fn surroundings(of: &Environment, file: &Path, loader: &Loader) -> Result<Surroundings, Failure> {

@@ -53,7 +53,11 @@ pub(crate) fn bind(
             Resource::Map(map) => {
                 let index = maps.iter().find(|(old, _)| old == map).map_or(0, |(_, new)| *new);
                 let bound = Bound::Map { index, depth: program.maps[*map].depth };
-                add(3, &format!("{}_map", info.short), resource, bound, names);
+                // One map says whose it is; of several each says which shadow asked first.
+                let several = maps.iter().filter(|(old, _)| program.maps[*old].light == light).count() > 1;
+                let asked = &program.nodes[program.maps[*map].node].short;
+                let name = if several { format!("{}_{asked}_map", info.short) } else { format!("{}_map", info.short) };
+                add(3, &name, resource, bound, names);
             }
             _ => add(3, &format!("{}_space", info.short), resource, Bound::Space { light: info.id.clone() }, names),
         }

@@ -42,18 +42,28 @@ pub(super) fn end_exists(
     let error = Diagnostic::error("ST0056", message, place());
     report.push(match did_you_mean(&end.node, graph.nodes.keys().map(String::as_str)) {
         Some(near) => error.help(format!("did you mean `{near}`?")),
-        None => error,
+        None => error.help(listed(graph)),
     });
+}
+
+/// The nodes that there are, in words.
+fn listed(graph: &Graph) -> String {
+    let names: Vec<String> = graph.nodes.keys().take(MAX_PATH).map(|name| format!("`{name}`")).collect();
+    let more = if graph.nodes.len() > names.len() { ", ..." } else { "" };
+    if names.is_empty() { "the graph has no nodes".into() } else { format!("its nodes are {}{more}", names.join(", ")) }
 }
 
 /// Reports a link that cannot be.
 pub(super) fn link(graph: &Graph, link: &Link, report: &mut Report) {
-    for end in [&link.from, &link.to] {
-        end_exists(graph, Some(end), "the link", || graph.link_place(link), report);
+    for (end, from) in [(&link.from, true), (&link.to, false)] {
+        // The place of a node that is not there is only its text.
+        let place = || graph.end_place(link, from, false).span.map_or_else(|| graph.link_place(link), Place::span);
+        end_exists(graph, Some(end), "the link", place, report);
     }
     if link.from.node == link.to.node {
         let message = format!("the link leads from `{}` to itself", link.from.node);
-        report.push(Diagnostic::error("ST0057", message, graph.link_place(link)));
+        let help = "remove it: what a node computes cannot depend on itself";
+        report.push(Diagnostic::error("ST0057", message, graph.link_place(link)).help(help));
     }
 }
 

@@ -21,6 +21,8 @@ pub struct Graph {
     pub links: Vec<Link>,
     /// The node, and perhaps port, that the graph exports. Unset: the one that nothing follows.
     pub output: Option<End>,
+    /// Where `output` was written.
+    pub output_span: Option<Span>,
     /// What a graph that contains this one can reach by name.
     pub expose: Expose,
     /// Canvas positions of nodes, in points, y down.
@@ -59,6 +61,8 @@ pub struct Node {
 pub struct Spans {
     /// The node: from its name to its closing bracket.
     pub whole: Option<Span>,
+    /// The node's name.
+    pub name: Option<Span>,
     /// The value of `kind`, or of `graph`.
     pub kind: Option<Span>,
     /// The content of `wgsl`, without quotes.
@@ -67,6 +71,17 @@ pub struct Spans {
     pub params: BTreeMap<String, Span>,
     /// The value of each option.
     pub options: BTreeMap<String, Span>,
+    /// The name of each parameter and of each option, apart from each other.
+    pub names: BTreeMap<(Setting, String), Span>,
+}
+
+/// What a name under a node stands for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum Setting {
+    /// An entry of `params`.
+    Param,
+    /// An entry of `options`.
+    Option,
 }
 
 /// One end of a link: a node, and perhaps one port of it.
@@ -218,9 +233,15 @@ impl Graph {
         place.node(node)
     }
 
-    /// Where a node was written; its name and the file for a node that was added since.
+    /// Where a node was written: at its name. Its name and the file for a node that was added since.
     pub fn place(&self, node: &str) -> Place {
-        self.place_at(node, self.nodes.get(node).and_then(|n| n.spans.whole.as_ref()))
+        let spans = self.nodes.get(node).map(|n| &n.spans);
+        self.place_at(node, spans.and_then(|s| s.name.as_ref().or(s.whole.as_ref())))
+    }
+
+    /// Where the graph says what it exports; otherwise its file.
+    pub fn output_place(&self) -> Place {
+        self.output_span.clone().map_or_else(|| self.file_place(), Place::span)
     }
 
     /// Where a node says its kind or its subgraph; otherwise where the node is.
@@ -241,6 +262,13 @@ impl Graph {
         self.place_at(node, spans.and_then(|s| s.options.get(option).or(s.whole.as_ref())))
     }
 
+    /// Where the name of a parameter or option was written; otherwise where the node is.
+    pub fn setting_place(&self, node: &str, what: Setting, name: &str) -> Place {
+        let span = self.nodes.get(node).and_then(|n| n.spans.names.get(&(what, name.to_owned())));
+        let place = span.map_or_else(|| self.place(node), |span| Place::span(span.clone()).node(node));
+        if what == Setting::Param { place.port(name) } else { place }
+    }
+
     /// Where a node's own WGSL begins and ends, without its quotes.
     pub fn wgsl_span(&self, node: &str) -> Option<Span> {
         self.nodes.get(node)?.spans.wgsl.clone()
@@ -255,8 +283,33 @@ impl Graph {
         }
     }
 
+    /// Where one end of a link was written: its whole text, or only the port that it pins.
+    pub fn end_place(&self, link: &Link, from: bool, port_only: bool) -> Place {
+        let end = if from { &link.from } else { &link.to };
+        let place = self.place_at(&end.node, link.span.as_ref().map(|s| part(s, from, port_only)).as_ref());
+        end.port.iter().fold(place, |place, port| place.port(port))
+    }
+
     /// Sorts the links by their ends.
     pub(crate) fn sort_links(&mut self) {
         self.links.sort_by(|a, b| a.ends().cmp(&b.ends()));
     }
+}
+
+/// The part of a link's text that says one of its ends, or the port of that end.
+fn part(link: &Span, from: bool, port_only: bool) -> Span {
+    let text = link.source.text.get(link.range.clone()).unwrap_or_default();
+    let inner = text.trim_start_matches(['r', '#']).trim_start_matches('"');
+    let start = text.len() - inner.len();
+    let inner = inner.trim_end_matches('#').trim_end_matches('"');
+    // An escape in a link is nobody's habit; then the whole link is shown.
+    let Some(arrow) = inner.find("->").filter(|_| !inner.contains('\\')) else { return link.clone() };
+    let mut range = if from { 0..arrow } else { arrow + 2..inner.len() };
+    if port_only {
+        range.start += inner[range.clone()].find('.').map_or(0, |dot| dot + 1);
+    }
+    let part = &inner[range.clone()];
+    let lead = part.len() - part.trim_start().len();
+    let at = link.range.start + start + range.start + lead;
+    Span::new(&link.source, at..at + part.trim().len())
 }

@@ -94,7 +94,8 @@ impl Expander {
         {
             if size > most {
                 let message = format!("with its subgraphs the graph has more than {most} {what}");
-                self.push(Diagnostic::error("ST0060", message, graph.file_place()));
+                let help = "an image or a node of your own does more with fewer nodes";
+                self.push(Diagnostic::error("ST0060", message, graph.file_place()).help(help));
                 return None;
             }
         }
@@ -108,7 +109,8 @@ impl Expander {
             };
             if task.chain.len() > MAX_NESTING {
                 let message = format!("subgraphs are nested more than {MAX_NESTING} deep at `{full}`");
-                self.push(Diagnostic::error("ST0063", message, graph.kind_place(name)));
+                let help = "put what the innermost files hold into the files that use them";
+                self.push(Diagnostic::error("ST0063", message, graph.kind_place(name)).help(help));
                 return None;
             }
             let Some((file, inner)) = self.load(task, name, path, load) else {
@@ -160,8 +162,12 @@ impl Expander {
         let (file, inner) = self.loaded.get(&key).cloned().flatten()?;
         if let Some(start) = task.chain.iter().position(|f| **f == *file) {
             let cycle: Vec<&str> = task.chain[start..].iter().map(|f| &**f).chain([file.as_str()]).collect();
-            let message = format!("these graph files contain each other: {}", cycle.join(" -> "));
-            self.push(Diagnostic::error("ST0062", message, place));
+            let message = match cycle[..] {
+                [one, _] => format!("the graph file {one} contains itself"),
+                _ => format!("these graph files contain each other: {}", cycle.join(" -> ")),
+            };
+            let help = "remove this node, or move what both need into a third file";
+            self.push(Diagnostic::error("ST0062", message, place).help(help));
             return None;
         }
         Some((file, inner))
@@ -204,6 +210,7 @@ impl Expander {
         flat.links = links.into_values().collect();
         flat.output = output;
         flat.expose = expose;
+        flat.output_span.clone_from(&root.output_span);
         flat.name.clone_from(&root.name);
         flat.note.clone_from(&root.note);
         flat.unknown.clone_from(&root.unknown);

@@ -24,7 +24,7 @@ mod write;
 #[cfg(test)]
 mod tests;
 
-pub use document::{End, Expose, Graph, Link, Node, Spans, check_name};
+pub use document::{End, Expose, Graph, Link, Node, Setting, Spans, check_name};
 pub use edit::{Edit, EditError, apply};
 pub use expand::{Loader, expand};
 pub use read::read;

@@ -92,6 +92,7 @@ fn graph(document: &ron::Document, report: &mut Report) -> Option<Graph> {
     }
     if let Some(output) = field(&fields, "output") {
         graph.output = report.end(output);
+        graph.output_span = Some(Span::new(&source, output.span.clone()));
         check::end_exists(&graph, graph.output.as_ref(), "the output", || output.place(&source), report);
     }
     if let Some(node) = field(&fields, "expose") {

@@ -2,7 +2,7 @@
 
 use super::comments::{Item, Target};
 use super::read::Report;
-use super::{Graph, MAX_NODES, Node, Spans, check_name};
+use super::{Graph, MAX_NODES, Node, Setting, Spans, check_name};
 use crate::diagnostic::{Diagnostic, Span};
 use crate::ron::{self, Tree, expect_fields, field};
 use crate::semantic::Value;
@@ -22,10 +22,13 @@ pub(super) fn nodes(map: &[(ron::Node, ron::Node)], graph: &mut Graph, items: &m
         };
         if let Err(message) = check_name(name) {
             let help = "use letters, digits, `_`, `-` and inner spaces";
-            report.push(Diagnostic::error("ST0053", message, key.place(&source).node(name)).help(help));
+            let place = key.place(&source);
+            let place = if name.is_empty() { place } else { place.node(name) };
+            report.push(Diagnostic::error("ST0053", message, place).help(help));
         }
         let span = key.span.start..value.span.end;
         let mut node = node(name, value, report);
+        node.spans.name = Some(Span::new(&source, key.span.clone()));
         node.spans.whole = Some(Span::new(&source, span.clone()));
         items.push(Item { span, target: Target::Node(name.to_string()) });
         graph.nodes.insert(name.to_string(), node);
@@ -82,22 +85,24 @@ fn node(name: &str, value: &ron::Node, report: &mut Report) -> Node {
 fn settings(name: &str, fields: &[ron::Field], node: &mut Node, report: &mut Report) {
     let source = report.source.clone();
     let Node { params, options, spans, .. } = node;
-    let Spans { params: param_spans, options: option_spans, .. } = spans;
-    let each = |field_name: &str, report: &mut Report, take: &mut dyn FnMut(&str, &ron::Node, &mut Report)| {
+    let Spans { params: param_spans, options: option_spans, names, .. } = spans;
+    let mut each = |what: Setting, report: &mut Report, take: &mut dyn FnMut(&str, &ron::Node, &mut Report)| {
+        let field_name = if what == Setting::Param { "params" } else { "options" };
         let map = field(fields, field_name).and_then(|n| report.take(n.as_map(&source))).unwrap_or_default();
         for (key, value) in map {
-            if let Some(key) = report.take(key.as_str(&source)) {
-                take(key, value, report);
+            if let Some(name) = report.take(key.as_str(&source)) {
+                names.insert((what, name.to_string()), Span::new(&source, key.span.clone()));
+                take(name, value, report);
             }
         }
     };
-    each("params", report, &mut |key, given, report| {
+    each(Setting::Param, report, &mut |key, given, report| {
         if let Some(value) = param(name, key, given, report) {
             param_spans.insert(key.to_string(), Span::new(&source, given.span.clone()));
             params.insert(key.to_string(), value);
         }
     });
-    each("options", report, &mut |key, given, report| {
+    each(Setting::Option, report, &mut |key, given, report| {
         let value = match &given.value {
             Tree::Text(text) | Tree::Number(text) => Some(text.clone()),
             Tree::Bool(b) => Some(b.to_string()),

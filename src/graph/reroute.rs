@@ -3,7 +3,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use super::expand::Stand;
-use super::{End, Expose, Graph, MAX_LINKS, check};
+use super::{End, Expose, Graph, MAX_LINKS, Setting, check};
 use crate::diagnostic::{Diagnostic, Place, did_you_mean};
 
 /// Most steps from an exposed name to what it stands for, over a whole graph: exposed names can fan out at every level.
@@ -93,10 +93,9 @@ impl<'a> Router<'a> {
         let mut set: BTreeMap<(bool, End), &String> = BTreeMap::new();
         let params = node.params.keys().map(|key| (key, What::Param));
         for (key, what) in params.chain(node.options.keys().map(|key| (key, What::Option))) {
-            let place = match what {
-                What::Option => stand.outer.option_place(&stand.name, key),
-                _ => stand.outer.param_place(&stand.name, key),
-            };
+            let setting = if what == What::Option { Setting::Option } else { Setting::Param };
+            let mut place = stand.outer.setting_place(&stand.name, setting, key);
+            place.node = Some(full.to_owned());
             let end = match key.split_once('.') {
                 Some((inner, port)) => End::port(format!("{full}/{inner}"), port),
                 None => End::port(full, key),
@@ -104,16 +103,20 @@ impl<'a> Router<'a> {
             for target in self.lead(end, what, &place) {
                 let Some(port) = &target.port else {
                     let message = format!("`{key}` leads to a whole node of `{full}`, which takes links and no value");
-                    self.push(Diagnostic::error("ST0064", message, place.clone()));
+                    let help = "name a port as well where the file exposes it: `\"scale\": \"noise.scale\"`";
+                    self.push(Diagnostic::error("ST0064", message, place.clone()).help(help));
                     continue;
                 };
                 let Some(inside) = self.flat.nodes.get_mut(&target.node) else {
-                    let message = format!("`{key}` names the node `{}`, which is not in the subgraph", target.node);
-                    let names = self.flat.nodes.keys().map(String::as_str);
-                    let near = did_you_mean(&target.node, names).map(|near| format!("did you mean `{near}`?"));
-                    let mut error = Diagnostic::error("ST0064", message, place.clone());
-                    error.help = near;
-                    self.push(error);
+                    let wanted = key.split_once('.').map_or(key.as_str(), |(node, _)| node);
+                    let file = self.file(full);
+                    let message = format!("`{key}` names the node `{wanted}`, which is not in the subgraph{file}");
+                    let names: Vec<&str> = stand.inner.nodes.keys().map(String::as_str).collect();
+                    let help = match did_you_mean(wanted, names.iter().copied()) {
+                        Some(near) => format!("did you mean `{near}`?"),
+                        None => format!("its nodes are {}", names.join(", ")),
+                    };
+                    self.push(Diagnostic::error("ST0064", message, place.clone()).help(help));
                     continue;
                 };
                 if what == What::Option {
@@ -121,11 +124,15 @@ impl<'a> Router<'a> {
                     inside.options.extend(node.options.get(key).map(|value| (port.clone(), value.clone())));
                     inside.spans.options.remove(port);
                     inside.spans.options.extend(span.map(|span| (port.clone(), span)));
+                    let name = node.spans.names.get(&(Setting::Option, key.clone())).cloned();
+                    inside.spans.names.extend(name.map(|name| ((Setting::Option, port.clone()), name)));
                 } else {
                     let span = node.spans.params.get(key).cloned();
                     inside.params.extend(node.params.get(key).map(|value| (port.clone(), value.clone())));
                     inside.spans.params.remove(port);
                     inside.spans.params.extend(span.map(|span| (port.clone(), span)));
+                    let name = node.spans.names.get(&(Setting::Param, key.clone())).cloned();
+                    inside.spans.names.extend(name.map(|name| ((Setting::Param, port.clone()), name)));
                 }
                 if let Some(other) = set.insert((what == What::Option, target.clone()), key) {
                     let message = format!("`{other}` and `{key}` both set `{target}`");
@@ -186,6 +193,12 @@ impl<'a> Router<'a> {
         reached.into_iter().collect()
     }
 
+    /// The file that a subgraph was read from, in brackets.
+    fn file(&self, stand: &str) -> String {
+        let source = self.stands.get(stand).and_then(|s| s.inner.source.as_ref());
+        source.map_or_else(String::new, |s| format!(" ({})", s.name))
+    }
+
     fn push(&mut self, diagnostic: Diagnostic) {
         check::push(self.found, diagnostic, Place::default());
     }
@@ -198,7 +211,7 @@ impl<'a> Router<'a> {
         exposed: impl Iterator<Item = &'b String> + Clone,
         place: &Place,
     ) -> Option<End> {
-        let message = format!("the subgraph `{node}` exposes no {what} `{name}`");
+        let message = format!("the subgraph `{node}`{} exposes no {what} `{name}`", self.file(node));
         let error = Diagnostic::error("ST0064", message, place.clone());
         let near = did_you_mean(name, exposed.clone().map(String::as_str));
         self.push(match near {
@@ -215,8 +228,13 @@ impl<'a> Router<'a> {
         exposed: impl Iterator<Item = &'b String>,
         place: &Place,
     ) -> Option<End> {
-        let message = format!("it is not clear which {what} of the subgraph `{node}` is meant");
-        self.push(Diagnostic::error("ST0065", message, place.clone()).help(offered(exposed)));
+        let message = format!("it is not clear which {what} of the subgraph `{node}`{} is meant", self.file(node));
+        let names: Vec<String> = exposed.map(|name| format!("`{node}.{name}`")).take(20).collect();
+        let help = match names.as_slice() {
+            [] => format!("the file exposes no {what}; add one to its `expose`, or name its `output`"),
+            names => format!("name one: {}", names.join(", ")),
+        };
+        self.push(Diagnostic::error("ST0065", message, place.clone()).help(help));
         None
     }
 }

@@ -6,7 +6,6 @@ use std::sync::Arc;
 
 use super::conditional::Kept;
 use super::definition::Library;
-use super::report::lines;
 use super::tokens::{Token, TokenKind, tokenize};
 use crate::diagnostic::{Diagnostic, Place, SourceText, Span};
 
@@ -123,15 +122,46 @@ pub(crate) fn check(libraries: &[&Library], kept: &Kept, source: &Arc<SourceText
         Some(r) => Place::span(Span::new(source, kept.original_range(r.start - before..r.end - before))),
         None => Place::file(&source.name),
     };
-    let mut error = Diagnostic::error(finding.code, finding.message, place);
-    if let Some(span) = &error.place.span {
-        let (line, _) = span.line_column();
-        if let Some(text) = lines(&source.text).nth(line - 1) {
-            error.notes.push(format!("line {line}: {}", text.text.trim()));
+    let mut error = Diagnostic::error(finding.code, plain(&finding.message), place);
+    // Labels of naga's own structures tell nothing to who wrote the text.
+    error.notes.extend(finding.notes.into_iter().filter(|note| !note.starts_with("naga::") && *note != error.message));
+    error.help = help(&error.message).map(str::to_owned);
+    vec![error]
+}
+
+/// What naga says, without the numbers that it gives to parts of its own structures: `[3]`, `Some([3])`.
+fn plain(message: &str) -> String {
+    let mut rest = message;
+    let mut plain = String::with_capacity(message.len());
+    while let Some(open) = rest.find('[') {
+        let digits = rest[open + 1..].bytes().take_while(u8::is_ascii_digit).count();
+        if digits > 0 && rest[open + 1 + digits..].starts_with(']') {
+            let (before, after) = (&rest[..open], &rest[open + digits + 2..]);
+            let wrapped = before.strip_suffix("Some(").and_then(|b| Some((b, after.strip_prefix(')')?)));
+            let (before, after) = wrapped.unwrap_or((before, after));
+            plain.push_str(before.strip_suffix(' ').unwrap_or(before));
+            rest = after;
+        } else {
+            plain.push_str(&rest[..=open]);
+            rest = &rest[open + 1..];
         }
     }
-    error.notes.extend(finding.notes);
-    vec![error]
+    plain + rest
+}
+
+/// What to do about the mistakes that are made most often.
+fn help(message: &str) -> Option<&'static str> {
+    let advice = [
+        (
+            "no definition in scope",
+            "declare it, make it a parameter of the function, or put its library on a `use:` line",
+        ),
+        ("is a reserved keyword", "give it another name"),
+        ("is recursive", "WGSL has no recursion: write a loop"),
+        ("does not match the declared return type", "return a value of the type after `->`, or change that type"),
+        ("automatic conversions cannot convert", "convert it: `f32(x)`, `vec3f(x)` and so on"),
+    ];
+    advice.iter().find(|(part, _)| message.contains(part)).map(|(_, help)| *help)
 }
 
 fn finding_of(code: &'static str, message: &str) -> Finding {

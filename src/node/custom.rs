@@ -158,12 +158,6 @@ mod tests {
     }
 
     #[test]
-    fn the_line_is_quoted() {
-        let found = run("fn bend(x: f32) -> f32 {\n  return y;\n}").unwrap_err();
-        assert!(found[0].contains("line 2: return y;"), "{found:?}");
-    }
-
-    #[test]
     fn hostile_texts_end_in_errors() {
         let nest = format!("fn bend() -> f32 {{ return {}1.0{}; }}", "(".repeat(5000), ")".repeat(5000));
         assert!(run(&nest).unwrap_err()[0].starts_with("ST0130"));

@@ -124,7 +124,8 @@ pub(crate) fn resolve(
     let mut found = Vec::new();
     for (name, choice) in choices {
         let Some(option) = options.iter().find(|o| o.name == *name) else {
-            let mut error = Diagnostic::error("ST0133", format!("there is no option `{name}`"), place.clone());
+            let mut error =
+                Diagnostic::error("ST0133", format!("there is no option `{name}`"), place.clone().port(name));
             error.help = match did_you_mean(name, options.iter().map(|o| o.name.as_str())) {
                 Some(near) => Some(format!("did you mean `{near}`?")),
                 None if options.is_empty() => Some("it has no options".into()),
@@ -138,7 +139,7 @@ pub(crate) fn resolve(
         };
         if !option.choices.contains(choice) {
             let message = format!("`{choice}` is not a choice of option `{name}`");
-            let error = Diagnostic::error("ST0133", message, place.clone());
+            let error = Diagnostic::error("ST0133", message, place.clone().port(name));
             found.push(error.help(format!("choices are {}", option.choices.join(", "))));
         }
     }
@@ -230,7 +231,9 @@ pub(crate) fn define(
             && function.body.is_none()
         {
             let place = kept.original_range(declaration.name_range.clone());
-            report.error("ST0123", place, format!("`{kind}` is inline but its body is not one `return`"));
+            report
+                .error("ST0123", place, format!("`{kind}` is inline but its body is not one `return`"))
+                .help("remove the line `//! inline`, or write the body as one `return ...;`");
         }
     }
     generic(&mut report, header, &applied);
@@ -259,13 +262,19 @@ fn judge(report: &mut Report, applied: &Applied) {
     for (i, d) in declarations.iter().enumerate() {
         let place = kept.original_range(d.name_range.clone());
         if declarations[..i].iter().any(|e| e.name == d.name) {
-            report.error("ST0104", place.clone(), format!("`{}` is declared twice", d.name));
+            report
+                .error("ST0104", place.clone(), format!("`{}` is declared twice", d.name))
+                .help("give one of them another name");
         }
         if is_reserved(&d.name) || !is_identifier(&d.name) {
-            report.error("ST0120", place.clone(), format!("`{}` cannot be declared in WGSL", d.name));
+            report
+                .error("ST0120", place.clone(), format!("`{}` is a word that WGSL keeps for itself", d.name))
+                .help("give it another name");
         }
         if d.entry {
-            report.error("ST0125", place, format!("`{}` is an entry point; a node is a function", d.name));
+            report
+                .error("ST0125", place, format!("`{}` is an entry point; a node is a function", d.name))
+                .help("remove `@vertex`, `@fragment` or `@compute`: entry points are written by the program");
         } else if d.keyword == "var" || d.keyword == "override" {
             report
                 .error("ST0125", place, format!("`{}` is a module-scope {}", d.name, d.keyword))

@@ -37,6 +37,7 @@ impl Reader<'_> {
             if lines.insert(&line.name, line).is_some() {
                 report
                     .error("ST0117", line.name_range.clone(), format!("`{}` has two lines", line.name))
+                    .help("remove one of them")
                     .port(&line.name);
             }
         }
@@ -99,13 +100,16 @@ impl Reader<'_> {
         let place = self.kept.original_range(declaration.name_range.clone());
         let lines: Vec<&PortLine> = written.iter().filter(|l| l.output).collect();
         let Some(result) = result else {
-            report.error("ST0135", place, format!("`{}` returns nothing", declaration.name));
+            report
+                .error("ST0135", place, format!("`{}` returns nothing", declaration.name))
+                .help("a node computes something: write `-> f32` before the body, and `return` it");
             return (Vec::new(), None);
         };
         for (i, line) in lines.iter().enumerate() {
             if lines[..i].iter().any(|l| l.name == line.name) {
                 report
                     .error("ST0117", line.name_range.clone(), format!("`{}` has two lines", line.name))
+                    .help("remove one of them")
                     .port(&line.name);
             }
         }
@@ -133,6 +137,7 @@ impl Reader<'_> {
         for extra in lines.iter().skip(1) {
             report
                 .error("ST0119", extra.name_range.clone(), format!("`{}` returns one value", declaration.name))
+                .help("remove this line, or return a struct with a member for each line")
                 .port(&extra.name);
         }
         let line = lines.first().copied();
@@ -150,6 +155,7 @@ impl Reader<'_> {
             let place = line.map_or_else(|| self.kept.original_range(field.range.clone()), |l| l.name_range.clone());
             report
                 .error("ST0120", place, format!("`{}` is a word that WGSL keeps for itself", field.name))
+                .help("give it another name")
                 .port(&field.name);
         }
         if line.is_none() && self.strict {

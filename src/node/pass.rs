@@ -299,7 +299,7 @@ fn unused() -> f32 { return 1.0; }
     fn mistakes() {
         let found = pass("//! kind: imge\n//! axs: x\n//! axes: z\n//! clear: a\n//! skip: a == b\n//! skip: a == c\n")
             .unwrap_err();
-        let codes: Vec<&str> = found.iter().map(|f| &f[..5]).collect();
+        let codes: Vec<&str> = found.iter().map(|f| &f[..6]).collect();
         assert_eq!(codes, ["ST0138", "ST0101", "ST0138", "ST0138", "ST0104", "ST0107"], "{found:?}");
         assert!(pass("").unwrap_err()[0].starts_with("ST0138"));
         let p = pass(BLUR).unwrap();

@@ -256,7 +256,7 @@ fn libraries_in_circles_are_cut() {
     assert_eq!(catalog.add_library("b.wgsl", "//! use: a\nconst B: f32 = A;"), []);
     let order: Vec<&str> = catalog.closure(&["a".into()]).iter().map(|l| l.name.as_str()).collect();
     assert_eq!(order, ["b", "a"]);
-    assert_eq!(show(&catalog.add_library("c.wgsl", "fn f() -> f32 { return x; }"))[0][..8], *"ST0126 x:");
+    assert_eq!(show(&catalog.add_library("c.wgsl", "fn f() -> f32 { return x; }"))[0][..9], *"ST0126 x:");
     assert!(catalog.library("c").is_none());
 }
 

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use super::{Light, Map, Pass, Plan, Space};
-use crate::diagnostic::{Diagnostic, Place};
+use crate::diagnostic::{Diagnostic, Place, Span, did_you_mean};
 use crate::node::{Catalog, PassFile};
 use crate::program::{MapDemand, Program};
 
@@ -30,8 +30,10 @@ pub fn plan(program: &Program, used: &[usize], lights: &[usize], catalog: &Catal
                 None => {
                     let message =
                         format!("`{}` asks for the pass `{name}`, and there is none", program.nodes[demand.node].id);
-                    let names: Vec<String> = catalog.pass_names().map(|n| format!("`{n}`")).collect();
-                    let help = format!("the passes are {}", names.join(", "));
+                    let help = match did_you_mean(name, catalog.pass_names()) {
+                        Some(near) => format!("did you mean `{near}`?"),
+                        None => format!("the passes are {}", catalog.pass_names().collect::<Vec<_>>().join(", ")),
+                    };
                     out.push(Diagnostic::error("ST0300", message, place(program, demand)).help(help));
                 }
             }
@@ -42,8 +44,19 @@ pub fn plan(program: &Program, used: &[usize], lights: &[usize], catalog: &Catal
     (plan, out)
 }
 
+/// The `map` line of the node that asks, at its input.
 fn place(program: &Program, demand: &MapDemand) -> Place {
-    Place::default().node(program.nodes[demand.node].id.clone()).port(demand.port.clone())
+    let info = &program.nodes[demand.node];
+    let source = &info.definition.header.source;
+    let mut at = 0;
+    let line = source.text.split_inclusive('\n').find_map(|line| {
+        let range = at..at + line.trim_end().len();
+        at += line.len();
+        let words: Vec<&str> = line.split_whitespace().take(3).collect();
+        matches!(words[..], ["//!", "map", port] if port.trim_end_matches(':') == demand.port).then_some(range)
+    });
+    let place = line.map_or_else(|| Place::file(&source.name), |range| Place::span(Span::new(source, range)));
+    place.node(info.id.clone()).port(demand.port.clone())
 }
 
 /// One pass of a chain: none if it is left out, one per axis if it has axes.
@@ -67,11 +80,17 @@ fn expand(
         let wgsl = match file.text(&chosen, catalog) {
             Ok(text) => text,
             Err(found) => {
+                // A choice that the pass does not have was made by the node; anything else is wrong in the pass itself.
                 let told = found.into_iter().map(|mut d| {
+                    if d.code == "ST0133" {
+                        d.message = format!("{} in the pass `{}`", d.message, file.name);
+                        d.place = place(program, demand);
+                    }
                     d.place.node.get_or_insert_with(|| program.nodes[demand.node].id.clone());
                     d
                 });
-                out.extend(told);
+                // Each axis finds the same.
+                out.extend(told.filter(|d| !out.contains(d)).collect::<Vec<_>>());
                 continue;
             }
         };

@@ -106,8 +106,9 @@ impl Program {
             }
             Wire::Irradiance => {
                 let light = context.light?;
-                let shadows: Vec<usize> =
-                    node.lights.get(&light)?.iter().copied().filter(|s| *s != context.index).collect();
+                // A light that shines on what lies under this layer, but not on the layer.
+                let Some(shadows) = node.lights.get(&light) else { return Some(self.zero()) };
+                let shadows: Vec<usize> = shadows.iter().copied().filter(|s| *s != context.index).collect();
                 self.irradiance(context, light, &shadows)
             }
             Wire::Value(value) => Some(self.parameter(&node.definition, context.index, port, value)),
@@ -194,7 +195,9 @@ impl Program {
         let output = definition.main.outputs.iter().find(|o| o.ty.meaning.quantity == Quantity::Irradiance)?;
         let here = Context { light: Some(light), ..*context };
         let mut factors = vec![here.output(light, &output.name)?];
-        for &shadow in shadows {
+        let mut shadows = shadows.to_vec();
+        shadows.sort_by(|a, b| self.nodes[*a].id.cmp(&self.nodes[*b].id));
+        for shadow in shadows {
             factors.extend(here.worth[shadow].lit.get(&light).and_then(|o| o.first()));
         }
         let name = format!("{}_irradiance", self.nodes[light].short);

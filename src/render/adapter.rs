@@ -79,32 +79,43 @@ pub fn adapters(options: &AdapterOptions) -> Result<Vec<AdapterSummary>, RenderE
     Ok(found.iter().map(summary).filter(|s| options.choice.accepts(s)).collect())
 }
 
-/// The adapter that the options ask for.
+/// The adapter that the options ask for. GL is asked only where nothing else has one: merely loading its libraries makes
+/// some of them write to stderr.
 pub(super) fn find(options: &AdapterOptions) -> Result<wgpu::Adapter, RenderError> {
-    let backends = backends(options)?;
-    let instance = instance(backends);
-    if options.choice == AdapterChoice::Any {
-        let request = instance.request_adapter(&wgpu::RequestAdapterOptions {
-            power_preference: wgpu::PowerPreference::HighPerformance,
-            ..Default::default()
-        });
-        let wanted = options.backends.as_ref().map(|b| format!("backend {b}"));
-        return pollster::block_on(request).map_err(|_| RenderError::NoAdapter { wanted, found: Vec::new() });
-    }
+    let all = backends(options)?;
+    let (first, last) = (all - wgpu::Backends::GL, all & wgpu::Backends::GL);
     let mut found = Vec::new();
-    for adapter in pollster::block_on(instance.enumerate_adapters(backends)) {
-        let summary = summary(&adapter);
-        if options.choice.accepts(&summary) {
+    for backends in [first, last].into_iter().filter(|b| !b.is_empty()) {
+        if let Some(adapter) = find_in(backends, &options.choice, &mut found) {
             return Ok(adapter);
         }
-        found.push(format!("`{}`", summary.name));
     }
     let wanted = match &options.choice {
-        AdapterChoice::Any => None,
+        AdapterChoice::Any => options.backends.as_ref().map(|b| format!("backend {b}")),
         AdapterChoice::Cpu => Some("a software adapter".into()),
         AdapterChoice::Name(name) => Some(format!("the name `{name}`")),
     };
     Err(RenderError::NoAdapter { wanted, found })
+}
+
+/// The adapter of these backends that fits, or else the names of those that do not.
+fn find_in(backends: wgpu::Backends, choice: &AdapterChoice, found: &mut Vec<String>) -> Option<wgpu::Adapter> {
+    let instance = instance(backends);
+    if *choice == AdapterChoice::Any {
+        let request = instance.request_adapter(&wgpu::RequestAdapterOptions {
+            power_preference: wgpu::PowerPreference::HighPerformance,
+            ..Default::default()
+        });
+        return pollster::block_on(request).ok();
+    }
+    for adapter in pollster::block_on(instance.enumerate_adapters(backends)) {
+        let summary = summary(&adapter);
+        if choice.accepts(&summary) {
+            return Some(adapter);
+        }
+        found.push(format!("`{}`", summary.name));
+    }
+    None
 }
 
 impl AdapterChoice {

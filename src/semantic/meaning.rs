@@ -295,6 +295,9 @@ impl Type {
 
 impl fmt::Display for Type {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{} ({})", self.meaning, self.shape.wgsl())
+        match self.shape {
+            Shape::Generic => write!(f, "{} (any width)", self.meaning),
+            _ => write!(f, "{} ({})", self.meaning, self.shape.wgsl()),
+        }
     }
 }

@@ -1,6 +1,6 @@
 //! The nodes and links of all graphs in one list, each node with its definition and its values checked.
 
-use std::collections::{BTreeMap, HashMap};
+use std::collections::{BTreeMap, BTreeSet, HashMap};
 use std::sync::Arc;
 
 use petgraph::algo::toposort;
@@ -8,8 +8,8 @@ use petgraph::graph::{DiGraph, NodeIndex};
 
 use super::{Found, Link};
 use crate::compile::{MAX_REPORTED, NamedGraph};
-use crate::diagnostic::{Diagnostic, Place, SourceText, did_you_mean};
-use crate::graph;
+use crate::diagnostic::{Diagnostic, SourceText, Span, did_you_mean};
+use crate::graph::{self, Setting};
 use crate::node::{self, Catalog, Definition, Port};
 use crate::semantic::{Shape, Value};
 
@@ -61,28 +61,36 @@ pub(crate) fn collect(graphs: &[NamedGraph], catalog: &Catalog, out: &mut Vec<Di
             }
             position.insert(name.as_str(), collected.nodes.len());
             let definition = definition(&named.graph, name, node, catalog, out);
+            let mut refused = BTreeSet::new();
             let values = match &definition {
-                Some(d) => values(named, name, node, d, out),
+                Some(d) => values(named, name, node, d, &mut refused, out),
                 None => BTreeMap::new(),
             };
+            let file = |port: &String| Some((port.clone(), node.spans.params.get(port)?.source.name.clone()));
             let source = node.spans.whole.as_ref().map(|s| &s.source).or(named.graph.source.as_ref());
             collected.nodes.push(Found {
                 id: identifier(graphs, index, name),
                 graph: index,
                 definition,
+                bases: values.keys().filter_map(file).collect(),
                 values,
+                refused,
                 base: source.map(|s| s.name.clone()).unwrap_or_default(),
                 place: named.graph.place(name),
             });
         }
-        for (from, to, place) in bypass(&named.graph) {
+        for (link, from, to) in bypass(&named.graph) {
             // A link to a node that is not there was reported when the graph was read.
             let (Some(&f), Some(&t)) = (position.get(from.node.as_str()), position.get(to.node.as_str())) else {
                 continue;
             };
-            let link = Link { from: f, from_port: from.port, to: t, to_port: to.port, place };
-            if check_ports(&collected.nodes, &link, out) {
-                collected.links.push(link);
+            let place = named.graph.link_place(link);
+            let woven = Link { from: f, from_port: from.port, to: t, to_port: to.port, place };
+            if check_ports(&collected.nodes, &woven, &named.graph, link, out) {
+                collected.links.push(woven);
+            } else {
+                collected.nodes[f].refused.insert("*".to_owned());
+                collected.nodes[t].refused.insert("*".to_owned());
             }
         }
     }
@@ -90,17 +98,17 @@ pub(crate) fn collect(graphs: &[NamedGraph], catalog: &Catalog, out: &mut Vec<Di
 }
 
 /// Links with muted nodes passed over: what fed a muted node feeds whatever it fed.
-fn bypass(graph: &graph::Graph) -> Vec<(graph::End, graph::End, Place)> {
-    let all = graph.links.iter().map(|l| (l.from.clone(), l.to.clone(), graph.link_place(l)));
+fn bypass(graph: &graph::Graph) -> Vec<(&graph::Link, graph::End, graph::End)> {
+    let all = graph.links.iter().map(|l| (l, l.from.clone(), l.to.clone()));
     let mut links: Vec<_> = all.collect();
     let muted = graph.nodes.iter().filter(|(_, n)| n.muted).map(|(name, _)| name);
     for name in muted {
         let (touching, mut rest): (Vec<_>, Vec<_>) =
-            links.into_iter().partition(|(from, to, _)| &from.node == name || &to.node == name);
-        let (into, out): (Vec<_>, Vec<_>) = touching.into_iter().partition(|(_, to, _)| &to.node == name);
+            links.into_iter().partition(|(_, from, to)| &from.node == name || &to.node == name);
+        let (into, out): (Vec<_>, Vec<_>) = touching.into_iter().partition(|(_, _, to)| &to.node == name);
         // One source is enough to heal a wire; of several the first feeds on, as their order is by name.
-        if let Some((source, _, _)) = into.first() {
-            rest.extend(out.into_iter().map(|(_, to, place)| (source.clone(), to, place)));
+        if let Some((_, source, _)) = into.first() {
+            rest.extend(out.into_iter().map(|(link, _, to)| (link, source.clone(), to)));
         }
         links = rest;
     }
@@ -117,7 +125,8 @@ fn definition(
     let chosen = if let Some(text) = &node.wgsl {
         let nowhere = SourceText::new(String::new(), String::new());
         let source = node.spans.whole.as_ref().map(|s| &s.source).or(graph.source.as_ref()).unwrap_or(&nowhere);
-        node::custom(name, text, source, &node.options, catalog)
+        let found = node::custom(name, text, source, &node.options, catalog);
+        found.map_err(|found| found.into_iter().map(|d| own_place(graph, name, d)).collect())
     } else if node.kind == "custom" {
         let message = "a `custom` node needs its WGSL";
         let help = "add `wgsl: \"fn name(x: f32) -> f32 { return x; }\"` to the node";
@@ -125,7 +134,7 @@ fn definition(
         return None;
     } else if let Some(file) = catalog.get(&node.kind) {
         if let Ok(header) = file.header()
-            && !check_options(graph, name, node, &header, out)
+            && !check_options(graph, name, node, file, &header, out)
         {
             return file.definition(&BTreeMap::new()).ok();
         }
@@ -144,10 +153,32 @@ fn definition(
     chosen.map_err(|mut found| out.append(&mut found)).ok()
 }
 
+/// A mistake in a node's own WGSL, with its place in the graph file. Lines and columns of the WGSL itself stay where the
+/// text has escapes, as it then stands nowhere in the file as it is.
+fn own_place(graph: &graph::Graph, name: &str, mut found: Diagnostic) -> Diagnostic {
+    if found.code == "ST0133" {
+        let option = found.place.port.take().unwrap_or_default();
+        found.place = graph.setting_place(name, Setting::Option, &option);
+        return found;
+    }
+    let (Some(outer), Some(inner)) = (graph.wgsl_span(name), &mut found.place.span) else {
+        if found.place.span.is_none() {
+            found.place = graph.place(name);
+        }
+        return found;
+    };
+    if outer.source.text.get(outer.range.clone()) == Some(inner.source.text.as_str()) {
+        let start = outer.range.start;
+        *inner = Span::new(&outer.source, start + inner.range.start..start + inner.range.end);
+    }
+    found
+}
+
 fn check_options(
     graph: &graph::Graph,
     name: &str,
     node: &graph::Node,
+    file: &node::NodeFile,
     header: &node::Header,
     out: &mut Vec<Diagnostic>,
 ) -> bool {
@@ -155,15 +186,22 @@ fn check_options(
     for (option, choice) in &node.options {
         let place = graph.option_place(name, option);
         let Some(spec) = header.options.iter().find(|o| &o.name == option) else {
+            let place = graph.setting_place(name, Setting::Option, option);
             let error = Diagnostic::error("ST0201", format!("`{}` has no option `{option}`", node.kind), place);
             let names: Vec<&str> = header.options.iter().map(|o| o.name.as_str()).collect();
-            out.push(suggest(error, option, &names, "it has"));
+            let is_input = file.definition(&BTreeMap::new()).is_ok_and(|d| d.input(option).is_some());
+            out.push(if is_input {
+                error.help(format!("`{option}` is an input: write it under `params`"))
+            } else {
+                suggest(error, option, &names, "its options are")
+            });
             continue;
         };
         if !spec.choices.contains(choice) {
             let message = format!("option `{option}` of `{}` cannot be `{choice}`", node.kind);
             let names: Vec<&str> = spec.choices.iter().map(String::as_str).collect();
-            out.push(suggest(Diagnostic::error("ST0202", message, place), choice, &names, "it can be"));
+            let help = format!("it can be {}", quoted(&names));
+            out.push(Diagnostic::error("ST0202", message, place).help(help));
         }
     }
     out.len() == before
@@ -173,9 +211,13 @@ fn check_options(
 pub(crate) fn suggest(error: Diagnostic, wanted: &str, names: &[&str], verb: &str) -> Diagnostic {
     match did_you_mean(wanted, names.iter().copied()) {
         Some(near) => error.help(format!("did you mean `{near}`?")),
-        None if names.is_empty() => error.help(format!("{verb} none")),
-        None => error.help(format!("{verb} {}", names.iter().map(|n| format!("`{n}`")).collect::<Vec<_>>().join(", "))),
+        None if names.is_empty() => error.help("there are none"),
+        None => error.help(format!("{verb} {}", quoted(names))),
     }
+}
+
+fn quoted(names: &[&str]) -> String {
+    names.iter().map(|n| format!("`{n}`")).collect::<Vec<_>>().join(", ")
 }
 
 fn values(
@@ -183,6 +225,7 @@ fn values(
     name: &str,
     node: &graph::Node,
     definition: &Definition,
+    refused: &mut BTreeSet<String>,
     out: &mut Vec<Diagnostic>,
 ) -> BTreeMap<String, Value> {
     let mut values = BTreeMap::new();
@@ -192,14 +235,23 @@ fn values(
     let given = node.params.iter().map(|(port, v)| (port.as_str(), v, named.graph.param_place(name, port)));
     for (port, value, place) in given.chain(overrides) {
         let Some(input) = definition.input(port).filter(|p| !p.hidden) else {
+            let place = named.graph.setting_place(name, Setting::Param, port);
             let error = Diagnostic::error("ST0203", format!("`{}` has no input `{port}`", definition.kind), place);
-            let names: Vec<&str> = definition.inputs().filter(|p| !p.hidden).map(|p| p.name.as_str()).collect();
-            out.push(suggest(error, port, &names, "it has"));
+            let settable = definition.inputs().filter(|p| !p.hidden && !super::is_light_port(definition, p));
+            let names: Vec<&str> = settable.map(|p| p.name.as_str()).collect();
+            out.push(if definition.header.options.iter().any(|o| o.name == port) {
+                error.help(format!("`{port}` is an option: write it under `options`"))
+            } else {
+                suggest(error, port, &names, "its inputs are")
+            });
             continue;
         };
         match check_value(input, value) {
             None => drop(values.insert(port.to_owned(), value.clone())),
-            Some((code, message, help)) => out.push(Diagnostic::error(code, message, place.port(port)).help(help)),
+            Some((code, message, help)) => {
+                refused.insert(port.to_owned());
+                out.push(Diagnostic::error(code, message, place.port(port)).help(help));
+            }
         }
     }
     values
@@ -222,14 +274,19 @@ fn check_value(input: &Port, value: &Value) -> Option<(&'static str, String, Str
     }
     let numbers = value.numbers().unwrap_or_default();
     if let Some(bad) = numbers.iter().find(|x| !x.is_finite() || x.abs() > f64::from(f32::MAX)) {
-        return Some(("ST0205", format!("`{port}` cannot be {bad}"), "write a finite number".into()));
+        let help = format!("write a number between {:e} and {:e}", f32::MIN, f32::MAX);
+        return Some(("ST0205", format!("`{port}` cannot be {bad:e}: the shader has no such number"), help));
     }
     let (low, high) = input.range;
     let outside = numbers.iter().find(|&&x| low.is_some_and(|l| x < l) || high.is_some_and(|h| x > h))?;
-    let text = |limit: Option<f64>| limit.map(|x| x.to_string()).unwrap_or_default();
     let unit = if input.unit.is_empty() { String::new() } else { format!(" {}", input.unit) };
     let message = format!("`{port}` = {outside}{unit} is out of range");
-    Some(("ST0206", message, format!("it must lie in {}..{}{unit}", text(low), text(high))))
+    let help = match (low, high) {
+        (Some(low), Some(high)) => format!("it must lie between {low} and {high}{unit}"),
+        (Some(low), None) => format!("it must be at least {low}{unit}"),
+        (_, high) => format!("it must be at most {}{unit}", high.unwrap_or_default()),
+    };
+    Some(("ST0206", message, help))
 }
 
 fn check_overrides(named: &NamedGraph, out: &mut Vec<Diagnostic>) {
@@ -238,27 +295,36 @@ fn check_overrides(named: &NamedGraph, out: &mut Vec<Diagnostic>) {
         if !named.graph.nodes.contains_key(node) {
             let message = format!("`{path}` cannot be set: graph `{}` has no node `{node}`", named.name);
             let names: Vec<&str> = named.graph.nodes.keys().map(String::as_str).collect();
-            out.push(suggest(Diagnostic::error("ST0207", message, named.graph.file_place()), node, &names, "it has"));
+            let error = Diagnostic::error("ST0207", message, named.graph.file_place());
+            out.push(suggest(error, node, &names, "its nodes are"));
         }
     }
 }
 
 /// Whether the ports that a link names exist.
-fn check_ports(nodes: &[Found], link: &Link, out: &mut Vec<Diagnostic>) -> bool {
+fn check_ports(
+    nodes: &[Found],
+    link: &Link,
+    graph: &graph::Graph,
+    written: &graph::Link,
+    out: &mut Vec<Diagnostic>,
+) -> bool {
     let before = out.len();
     if let (Some(port), Some(d)) = (&link.from_port, &nodes[link.from].definition)
         && d.output(port).is_none()
     {
         let message = format!("`{}` ({}) has no output `{port}`", nodes[link.from].id, d.kind);
         let names: Vec<&str> = d.main.outputs.iter().map(|p| p.name.as_str()).collect();
-        out.push(suggest(Diagnostic::error("ST0208", message, link.place.clone()), port, &names, "it has"));
+        let place = graph.end_place(written, true, true);
+        out.push(suggest(Diagnostic::error("ST0208", message, place), port, &names, "its outputs are"));
     }
     if let (Some(port), Some(d)) = (&link.to_port, &nodes[link.to].definition)
         && d.input(port).is_none_or(|p| p.hidden)
     {
         let message = format!("`{}` ({}) has no input `{port}`", nodes[link.to].id, d.kind);
         let names: Vec<&str> = d.inputs().filter(|p| !p.hidden).map(|p| p.name.as_str()).collect();
-        out.push(suggest(Diagnostic::error("ST0208", message, link.place.clone()), port, &names, "it has"));
+        let place = graph.end_place(written, false, true);
+        out.push(suggest(Diagnostic::error("ST0208", message, place), port, &names, "its inputs are"));
     }
     out.len() == before
 }

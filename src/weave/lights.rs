@@ -3,7 +3,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use super::collect::Collected;
-use super::{is_light, is_lit, is_shadow};
+use super::{is_light, is_lit, is_shadow, is_surface};
 use crate::diagnostic::Diagnostic;
 
 /// For each node: light to the shadows between it and the node (for a shadow, itself included).
@@ -20,7 +20,7 @@ pub(crate) fn follow(collected: &Collected, out: &mut Vec<Diagnostic>) -> Lights
             continue;
         }
         let shadow = is_shadow(definition);
-        if !shadow && !is_lit(definition) {
+        if !shadow && !is_lit(definition) && !is_surface(definition) {
             continue;
         }
         let mut reached: BTreeMap<usize, BTreeSet<usize>> = BTreeMap::new();
@@ -30,6 +30,17 @@ pub(crate) fn follow(collected: &Collected, out: &mut Vec<Diagnostic>) -> Lights
             if lamp {
                 for (light, shadows) in &lights[from] {
                     reached.entry(*light).or_default().extend(shadows);
+                }
+            }
+        }
+        // A layer that no light is linked to is lit as what lies under it.
+        if reached.is_empty() && is_surface(definition) {
+            for &link in &collected.incoming[i] {
+                let from = collected.links[link].from;
+                if nodes[from].definition.as_deref().is_some_and(is_surface) {
+                    for (light, shadows) in &lights[from] {
+                        reached.entry(*light).or_default().extend(shadows);
+                    }
                 }
             }
         }

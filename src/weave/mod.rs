@@ -145,8 +145,20 @@ pub(crate) struct Found {
     pub(crate) graph: usize,
     pub(crate) definition: Option<Arc<Definition>>,
     pub(crate) values: BTreeMap<String, Value>,
+    /// The file that each path among the values counts from, if it is not `base`.
+    pub(crate) bases: BTreeMap<String, String>,
     pub(crate) base: String,
     pub(crate) place: Place,
+    /// Ports whose value or link was refused, and `*` for links that could have led anywhere: what is missing there
+    /// has been reported already.
+    pub(crate) refused: BTreeSet<String>,
+}
+
+impl Found {
+    /// Whether nothing can be said about what feeds this node or what it feeds.
+    pub(crate) fn is_doubtful(&self) -> bool {
+        self.definition.is_none() || self.refused.contains("*")
+    }
 }
 
 /// Resolves the wiring of `graphs` together. The result is there only if no error was found.
@@ -154,16 +166,30 @@ pub fn weave(graphs: &[NamedGraph], catalog: &Catalog, output: &Output) -> (Opti
     let mut diagnostics = Vec::new();
     let mut collected = collect::collect(graphs, catalog, &mut diagnostics);
     join::join(graphs, &collected.nodes, &mut collected.links, &mut diagnostics);
-    let Some(order) = collect::order(&collected, &mut diagnostics) else { return (None, diagnostics) };
+    let Some(order) = collect::order(&collected, &mut diagnostics) else {
+        in_file_order(graphs, &mut diagnostics);
+        return (None, diagnostics);
+    };
     collected.reorder(&order);
     let lights = lights::follow(&collected, &mut diagnostics);
     let conversions = Conversions::default();
     let nodes = resolve::resolve(&collected, lights, &conversions, &mut diagnostics);
     spaces::check(&nodes, &mut diagnostics);
     let root = root::choose(graphs, &collected, &nodes, output, &conversions, &mut diagnostics);
+    in_file_order(graphs, &mut diagnostics);
     // A node that could not be resolved is missing, so every index would be off: there is no partial result.
     match (nodes.into_iter().collect::<Option<Vec<Node>>>(), root) {
         (Some(nodes), Some(root)) if !has_errors(&diagnostics) => (Some(Woven { nodes, root }), diagnostics),
         _ => (None, diagnostics),
     }
+}
+
+/// What is reported together comes in the order in which a person reads the files; what has no line comes last.
+fn in_file_order(graphs: &[NamedGraph], diagnostics: &mut [Diagnostic]) {
+    let files: Vec<Option<&String>> = graphs.iter().map(|g| g.graph.source.as_ref().map(|s| &s.name)).collect();
+    diagnostics.sort_by_key(|d| {
+        let span = d.place.span.as_ref();
+        let file = span.map(|s| files.iter().position(|f| *f == Some(&s.source.name)).unwrap_or(files.len()));
+        (span.is_none(), file, span.map(|s| (s.source.name.clone(), s.range.start)))
+    });
 }

@@ -65,7 +65,8 @@ impl Work<'_> {
         let incoming: Vec<&Link> =
             self.collected.incoming[self.index].iter().map(|&l| &self.collected.links[l]).collect();
         // A neighbour with mistakes of its own has said so; what it would have fed is not reported as missing.
-        let blind = incoming.iter().any(|l| self.done[l.from].is_none());
+        let refused = self.found.refused.contains("*");
+        let blind = refused || incoming.iter().any(|l| self.done[l.from].is_none());
         self.pinned(&incoming, &mut inputs, out);
         self.under_lights(&mut inputs);
         let fed_by_light = |link: &&Link| self.lights.iter().any(|(l, s)| *l == link.from || s.contains(&link.from));
@@ -73,9 +74,11 @@ impl Work<'_> {
             .iter()
             .copied()
             .filter(|l| l.to_port.is_none() && self.done[l.from].is_some() && !fed_by_light(l))
+            // A shadow that no light reaches has been reported; it is not looked at as a mere value.
+            .filter(|l| !self.done[l.from].as_ref().is_some_and(|n| is_shadow(&n.definition) && n.lights.is_empty()))
             .collect();
-        self.neighbours(&open, &mut inputs, out);
-        self.rest(&mut inputs, blind, &incoming, out);
+        let assigned = self.neighbours(&open, &mut inputs, out);
+        self.rest(&mut inputs, blind || !assigned, &incoming, out);
         let generic = self.generic(&inputs, out);
         if out[before..].iter().any(|d| d.severity == crate::diagnostic::Severity::Error) || blind {
             return None;
@@ -170,12 +173,12 @@ impl Work<'_> {
         }
     }
 
-    /// Unpinned links of direct neighbours, assigned to the free ports together.
-    fn neighbours(&self, open: &[&Link], inputs: &mut BTreeMap<String, Wire>, out: &mut Vec<Diagnostic>) {
+    /// Unpinned links of direct neighbours, assigned to the free ports together. Whether that could be done.
+    fn neighbours(&self, open: &[&Link], inputs: &mut BTreeMap<String, Wire>, out: &mut Vec<Diagnostic>) -> bool {
         let free: Vec<&Port> =
             self.ports().filter(|p| !inputs.contains_key(&p.name) && !is_light_port(&self.definition, p)).collect();
         if open.is_empty() {
-            return;
+            return true;
         }
         let offers: Vec<Vec<Option<Offer>>> =
             open.iter().map(|l| free.iter().map(|p| self.offer(l.from, l.from_port.as_deref(), p)).collect()).collect();
@@ -197,21 +200,26 @@ impl Work<'_> {
             }
         }
         if useless {
-            return;
+            return false;
         }
         let Some((total, chosen)) = assign(&cost) else {
-            let names: Vec<String> = open.iter().map(|l| format!("`{}`", self.collected.nodes[l.from].id)).collect();
+            let mut names: Vec<String> =
+                open.iter().map(|l| format!("`{}`", self.collected.nodes[l.from].id)).collect();
+            names.sort_unstable();
             let message =
                 format!("{} cannot all feed `{}`: it has too few fitting inputs", names.join(", "), self.found.id);
-            let help = format!("its free inputs are {}", list(free.iter().map(|p| format!("`{}` ({})", p.name, p.ty))));
-            out.push(Diagnostic::error("ST0214", message, open[open.len() - 1].place.clone()).help(help));
-            return;
+            let mut error = Diagnostic::error("ST0214", message, open[open.len() - 1].place.clone());
+            for port in &free {
+                error = error.note(format!("free: `{}`, {}", port.name, port.ty));
+            }
+            out.push(error.help("remove a link, or put a node between them that makes one value of several"));
+            return false;
         };
         if let Some((row, other)) = alternative(&cost, total, &chosen)
             && !self.interchangeable(&free, &chosen, row, other)
         {
             out.push(self.ambiguous(open, &free, &offers, &cost, row, chosen[row], other));
-            return;
+            return false;
         }
         for (row, &column) in chosen.iter().enumerate() {
             if let Some(offer) = &offers[row][column] {
@@ -228,6 +236,7 @@ impl Work<'_> {
                 }
             }
         }
+        true
     }
 
     /// Whether the two ways differ only in the first two inputs of a node that may swap them.
@@ -241,16 +250,20 @@ impl Work<'_> {
 
     fn contributes_nothing(&self, link: &Link, free: &[&Port]) -> Diagnostic {
         let from = self.done[link.from].as_ref().expect("only resolved neighbours are open");
-        let offered =
-            list(from.definition.main.outputs.iter().map(|o| format!("`{}` ({})", o.name, from.output_type(o))));
         let message = format!("`{}` contributes nothing to `{}`", from.id, self.found.id);
-        let mut error = Diagnostic::error("ST0215", message, link.place.clone()).note(format!("it gives {offered}"));
-        let wanted = list(free.iter().map(|p| format!("`{}` ({})", p.name, p.ty)));
-        error = error.note(format!(
-            "`{}` has free: {}",
-            self.found.id,
-            if wanted.is_empty() { "nothing" } else { &wanted }
-        ));
+        let mut error = Diagnostic::error("ST0215", message, link.place.clone());
+        let given =
+            from.definition.main.outputs.iter().filter(|o| link.from_port.as_ref().is_none_or(|n| *n == o.name));
+        for output in given {
+            error = error.note(format!("`{}.{}` is {}", from.id, output.name, from.output_type(output)));
+        }
+        for port in free {
+            error = error.note(format!("`{}.{}` wants {}", self.found.id, port.name, port.ty));
+        }
+        if free.is_empty() {
+            let nothing = if is_light(&from.definition) { "takes no light" } else { "has no free input" };
+            error = error.note(format!("`{}` ({}) {nothing}", self.found.id, self.definition.kind));
+        }
         let primary = from.definition.main.outputs.first().map(|o| from.output_type(o));
         let near = free.iter().find_map(|p| missing_conversion(primary.as_ref()?, &p.ty));
         error.help(near.unwrap_or_else(|| "remove the link, or put a node between them that converts".to_owned()))
@@ -275,10 +288,12 @@ impl Work<'_> {
         let mut error = Diagnostic::error("ST0216", message, open[row].place.clone());
         let mut candidates: Vec<usize> = (0..free.len()).filter(|c| cost[row][*c] < NEVER).collect();
         candidates.sort_by_key(|c| cost[row][*c]);
+        let equal = |c: &usize| *c == one || *c == other || cost[row][*c] == cost[row][one];
+        let tied: Vec<usize> = candidates.iter().copied().filter(equal).take(4).collect();
         for column in candidates {
             let Some(offer) = &offers[row][column] else { continue };
             error = error.note(format!(
-                "candidate `{}` ({}), conversion cost {}",
+                "candidate `{}`, {}, conversion cost {}",
                 free[column].name, free[column].ty, offer.chain.cost
             ));
         }
@@ -287,10 +302,8 @@ impl Work<'_> {
             Some(port) => format!("{source}.{port}"),
             None => source.to_owned(),
         };
-        error.help(format!(
-            "pin one: `\"{text} -> {target}.{}\"` or `\"{text} -> {target}.{}\"`",
-            free[one].name, free[other].name
-        ))
+        let pins: Vec<String> = tied.iter().map(|c| format!("`\"{text} -> {target}.{}\"`", free[*c].name)).collect();
+        error.help(format!("pin one: {}", pins.join(" or ")))
     }
 
     /// Ports that nothing feeds yet.
@@ -309,7 +322,8 @@ impl Work<'_> {
             }
             match self.further_up(port) {
                 Ok(Some(wire)) => drop(inputs.insert(port.name.clone(), wire)),
-                Ok(None) if blind => {}
+                Ok(None) if blind || self.found.refused.contains(&port.name) => {}
+                Err(_) if blind => {}
                 Ok(None) => out.push(self.missing(port, incoming)),
                 Err(error) => out.push(*error),
             }
@@ -319,7 +333,10 @@ impl Work<'_> {
     fn provided(&self, port: &Port) -> Option<Wire> {
         if let Some(value) = self.found.values.get(&port.name) {
             return Some(match value {
-                Value::Text(path) => Wire::Image(path.clone(), self.found.base.clone()),
+                Value::Text(path) => {
+                    let base = self.found.bases.get(&port.name).unwrap_or(&self.found.base);
+                    Wire::Image(path.clone(), base.clone())
+                }
                 other => Wire::Value(other.clone()),
             });
         }
@@ -383,11 +400,21 @@ impl Work<'_> {
             }
         }
         let target = short(&self.found.id);
-        error.help(if port.ty.meaning.kind == Kind::Texture {
-            format!("name an image file: `params: {{\"{}\": \"picture.png\"}}`", port.name)
-        } else {
-            format!("link a node to it: `\"NODE -> {target}.{}\"`", port.name)
-        })
+        let name = &port.name;
+        let link = format!("link a node to it: `\"NODE -> {target}.{name}\"`");
+        let example = match port.ty.shape {
+            Shape::Texture => {
+                return error.help(format!("name an image file: `params: {{\"{name}\": \"picture.png\"}}`"));
+            }
+            Shape::F32(1) | Shape::Generic => "0.5",
+            Shape::F32(2) => "(0.5, 0.5)",
+            Shape::F32(3) => "(0.5, 0.5, 0.5)",
+            Shape::F32(4) => "(0.5, 0.5, 0.5, 1)",
+            Shape::I32 | Shape::U32 => "3",
+            Shape::Bool => "true",
+            _ => return error.help(link),
+        };
+        error.help(format!("{link}, or give it a value: `params: {{\"{name}\": {example}}}`"))
     }
 
     /// The shape of `T`: as wide as the widest thing linked or given to a generic input.
@@ -452,6 +479,7 @@ fn missing_conversion(from: &Type, to: &Type) -> Option<String> {
     let (a, b) = (from.meaning, to.meaning);
     let wide = from.shape.width().unwrap_or(1);
     let narrow = to.shape.width().unwrap_or(1);
+    let numeric = |ty: &Type| matches!(ty.shape, Shape::F32(_));
     let text = match (a.kind, b.kind) {
         (Kind::Color, Kind::Scalar | Kind::Number) if narrow == 1 => {
             "insert `luminance`, or `separate3` for one channel"
@@ -462,9 +490,10 @@ fn missing_conversion(from: &Type, to: &Type) -> Option<String> {
             "radiance is seen, not reflected: take the colour from before the surface node"
         }
         (_, Kind::Color) if b.quantity == Quantity::Radiance => "insert a surface node, such as `lambert` or `unlit`",
-        _ if wide > narrow => "insert `separate2`, `separate3` or `separate4` to choose components",
-        _ if wide < narrow => "insert `combine2`, `combine3` or `combine4` to build it from components",
-        _ => return None,
+        _ if !numeric(from) || !numeric(to) => return None,
+        _ if wide > narrow => return Some(format!("insert `separate{wide}` to choose components")),
+        _ if wide < narrow => return Some(format!("insert `combine{narrow}` to build it from components")),
+        _ => "insert a maths node such as `multiply_add`: what it gives may mean anything",
     };
     Some(text.to_owned())
 }

@@ -2,7 +2,7 @@
 
 use std::rc::Rc;
 
-use super::collect::{Collected, identifier, suggest};
+use super::collect::{Collected, suggest};
 use super::resolve::is_lamp;
 use super::{Node, is_lit, is_surface};
 use crate::compile::{NamedGraph, Output};
@@ -117,8 +117,8 @@ fn seen(
     out: &mut Vec<Diagnostic>,
 ) -> Option<Root> {
     let mut ends: Vec<(usize, Option<String>)> = Vec::new();
-    for (index, named) in graphs.iter().enumerate() {
-        ends.extend(exports(graphs, named, index, collected, out)?);
+    for index in 0..graphs.len() {
+        ends.extend(exports(graphs, index, collected, out)?);
     }
     let is = |i: usize, what: fn(&crate::node::Definition) -> bool| {
         collected.nodes[i].definition.as_deref().is_some_and(what)
@@ -129,14 +129,17 @@ fn seen(
     let shown = if surfaces.is_empty() { &values } else { &surfaces };
     match shown[..] {
         [(node, port)] => {
-            for (other, _) in values.iter().filter(|(i, _)| i != node) {
+            let left = |i: usize| i != *node && !collected.nodes[i].is_doubtful();
+            for (other, _) in values.iter().filter(|(i, _)| left(*i)) {
                 let message = format!("`{}` feeds nothing and is left out", collected.nodes[*other].id);
                 let help = "link it to something, or name it as the graph's `output`";
                 out.push(Diagnostic::warning("ST0220", message, collected.nodes[*other].place.clone()).help(help));
             }
-            finish(*node, port.as_deref(), collected, nodes, conversions, out)
+            finish(graphs, *node, port.as_deref(), collected, nodes, conversions, out)
         }
-        [] => lamps_alone(&ends, collected, nodes, out),
+        [] => lamps_alone(graphs, &ends, collected, nodes, out),
+        // Nodes that are misspelt, or whose links are, are not to be chosen between.
+        _ if shown.iter().any(|(i, _)| collected.nodes[*i].is_doubtful()) => None,
         [(first, _), ..] => {
             let names = shown.iter().take(MAX_NAMED).map(|(i, _)| format!("`{}`", collected.nodes[*i].id));
             let mut names: Vec<String> = names.collect();
@@ -146,7 +149,7 @@ fn seen(
             let message = format!("{} are all left without a follower: which one is seen?", names.join(", "));
             let help = format!(
                 "say `output: \"{}\"`, or combine them with `mix_surface` or `add_surface`",
-                collected.nodes[*first].id
+                super::lights::short(&collected.nodes[*first].id)
             );
             out.push(Diagnostic::error("ST0221", message, collected.nodes[*first].place.clone()).help(help));
             None
@@ -157,13 +160,14 @@ fn seen(
 /// The nodes that a graph exports: the one that it names, or those that feed nothing.
 fn exports(
     graphs: &[NamedGraph],
-    named: &NamedGraph,
     index: usize,
     collected: &Collected,
     out: &mut Vec<Diagnostic>,
 ) -> Option<Vec<(usize, Option<String>)>> {
+    let named = &graphs[index];
     let own: Vec<usize> = (0..collected.nodes.len()).filter(|i| collected.nodes[*i].graph == index).collect();
     let feeds: std::collections::BTreeSet<usize> = collected.links.iter().map(|l| l.from).collect();
+    let named_id = |node: &str| super::collect::identifier(graphs, index, node);
     let Some(end) = &named.graph.output else {
         return Some(
             own.into_iter()
@@ -172,12 +176,13 @@ fn exports(
                 .collect(),
         );
     };
-    let id = identifier(graphs, index, &end.node);
-    let found = own.iter().copied().find(|i| collected.nodes[*i].id == id);
+    let found = own.iter().copied().find(|i| collected.nodes[*i].id == named_id(&end.node));
     if found.is_none() {
-        let message = format!("the graph's output `{end}` is not among its nodes");
+        let muted = named.graph.nodes.get(&end.node).is_some_and(|n| n.muted);
+        let why = if muted { "is muted" } else { "is not among its nodes" };
+        let message = format!("the graph's output `{end}` {why}");
         let help = "name a node that is there and not muted, or leave `output` out";
-        out.push(Diagnostic::error("ST0222", message, named.graph.file_place()).help(help));
+        out.push(Diagnostic::error("ST0222", message, named.graph.output_place()).help(help));
         return None;
     }
     found.map(|i| vec![(i, end.port.clone())])
@@ -190,6 +195,7 @@ fn is_end_lamp(node: usize, graph: usize, collected: &Collected) -> bool {
 }
 
 fn finish(
+    graphs: &[NamedGraph],
     index: usize,
     port: Option<&str>,
     collected: &Collected,
@@ -199,7 +205,9 @@ fn finish(
 ) -> Option<Root> {
     let node = nodes[index].as_ref()?;
     if is_surface(&node.definition) && port.is_none() {
-        if is_lit(&node.definition) && node.lights.is_empty() && !node.definition.header.category.is_empty() {
+        // A light that is misspelt does not shine either, but that is said already.
+        let doubtful = collected.nodes.iter().any(super::Found::is_doubtful);
+        if is_lit(&node.definition) && node.lights.is_empty() && !doubtful {
             let message = format!("no light shines on `{}`: only its ambient part is seen", node.id);
             let help = "give a light graph as well: `shadetree generate LIGHT.ron SURFACE.ron`";
             out.push(Diagnostic::warning("ST0223", message, node.place.clone()).help(help));
@@ -212,9 +220,9 @@ fn finish(
         let error = Diagnostic::error(
             "ST0222",
             format!("`{}` has no output `{wanted}`", node.id),
-            collected.nodes[index].place.clone(),
+            graphs[collected.nodes[index].graph].graph.output_place().node(&node.id),
         );
-        out.push(suggest(error, wanted, &names, "it has"));
+        out.push(suggest(error, wanted, &names, "its outputs are"));
         return None;
     };
     let color = Type::new(Meaning::of(Kind::Color), Shape::F32(3));
@@ -242,6 +250,7 @@ fn finish(
 
 /// Lights without anything to shine on show what they deliver.
 fn lamps_alone(
+    graphs: &[NamedGraph],
     ends: &[(usize, Option<String>)],
     collected: &Collected,
     nodes: &[Option<Node>],
@@ -255,10 +264,12 @@ fn lamps_alone(
     }
     if lights.is_empty() {
         if !collected.nodes.iter().any(|n| n.definition.is_none()) {
-            let message = "there is nothing to see: the graph has no nodes";
-            out.push(
-                Diagnostic::error("ST0225", message, Place::default()).help("add a surface node, such as `lambert`"),
-            );
+            let muted = graphs.iter().any(|g| !g.graph.nodes.is_empty());
+            let why = if muted { "every node is muted" } else { "the graph has no nodes" };
+            let place = graphs.first().map_or_else(Place::default, |g| g.graph.file_place());
+            let error = Diagnostic::error("ST0225", format!("there is nothing to see: {why}"), place);
+            let help = if muted { "unmute one" } else { "add a surface node: `\"matte\": (kind: \"lambert\")`" };
+            out.push(error.help(help));
         }
         return None;
     }

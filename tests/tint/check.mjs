@@ -20,15 +20,19 @@ function listed() {
     .map((name) => join(folder, name));
 }
 
+// Dawn frees what JavaScript no longer reaches, even while a device made from it is in use.
+const dawn = (globalThis.dawn = {});
+
 async function main() {
   const { create, globals } = await import('webgpu');
   Object.assign(globalThis, globals);
   // The null backend compiles WGSL without any GPU or driver.
-  const adapter = await create(['backend=null']).requestAdapter();
+  dawn.gpu = create(['backend=null']);
+  const adapter = (dawn.adapter = await dawn.gpu.requestAdapter());
   if (adapter === null) {
     throw new Error('Dawn offers no null adapter');
   }
-  const device = await adapter.requestDevice();
+  const device = (dawn.device = await adapter.requestDevice());
   device.addEventListener?.('uncapturederror', (event) => event.preventDefault?.());
 
   const files = listed();

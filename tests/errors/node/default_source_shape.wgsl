@@ -1,0 +1,8 @@
+//! label: Bend
+//! category: math
+
+/// x (scalar; = @normal_world; 0..1): What is bent.
+/// -> y (scalar): The bent.
+fn default_source_shape(x: f32) -> f32 {
+    return x * x;
+}

@@ -1,0 +1,5 @@
+/// x (scalar; = 0.5; 0..1): What is bent.
+/// -> y (scalar): The bent.
+fn no_header(x: f32) -> f32 {
+    return x * x;
+}

@@ -1,0 +1,8 @@
+//! Laws that shadows obey, on a real adapter with woven modules, against float64.
+
+mod adapters;
+mod lamp;
+mod lights;
+mod planar;
+mod surfaces;
+mod variance;
