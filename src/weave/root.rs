@@ -2,7 +2,7 @@
 
 use std::rc::Rc;
 
-use super::collect::{Collected, identifier, suggest};
+use super::collect::{Collected, suggest};
 use super::resolve::is_lamp;
 use super::{Node, is_lit, is_surface};
 use crate::compile::{NamedGraph, Output};
@@ -178,7 +178,7 @@ fn exports(
                 .collect(),
         );
     };
-    let id = identifier(graphs, index, &end.node);
+    let id = super::collect::identifier(graphs, index, &end.node);
     let found = own.iter().copied().find(|i| collected.nodes[*i].id == id);
     if found.is_none() {
         let muted = named.graph.nodes.get(&end.node).is_some_and(|n| n.muted);
