@@ -65,7 +65,11 @@ pub(super) fn overrides(set: &[Assignment], option: &[Assignment]) -> Vec<Assign
 /// Puts overrides into the graphs that have such a node. Ports, options and types are checked when compiling.
 pub(super) fn apply(assignments: &[Assignment], graphs: &mut [NamedGraph]) -> Result<(), Failure> {
     for assignment in assignments {
-        let wrong = |message| Diagnostic::error("ST0510", message, Place::default().node(&assignment.node));
+        let wrong = |message| {
+            let place = Place::default().node(&assignment.node).port(&assignment.name);
+            let help = "write a number, true or false, several numbers as (1, 2, 3), or a path";
+            Diagnostic::error("ST0510", message, place).help(help)
+        };
         let flag = if assignment.is_option { "--option" } else { "--set" };
         let value = assignment.value();
         let value = if assignment.is_option { Value::Bool(true) } else { value.map_err(|m| vec![wrong(m)])? };

@@ -181,9 +181,8 @@ fn pcf_shadow(
     let position = light_position(space, point);
     let plane = receiver_plane(space, position, normal);
     let size = vec2f(textureDimensions(map));
-    let slope = receiver_slope(space, plane) / size;
     let curvature = receiver_curvature(space, plane, size, 0.5 * f32(WIDTH) + 0.5);
-    let margin = bias * space.depth.z + receiver_rounding(slope) + curvature;
+    let margin = bias * space.depth.z + receiver_rounding(receiver_slope(space, plane) / size) + curvature;
     // Bilinear taps on a grid share their texels: each texel is compared once, with the kernel convolved with the tent.
     let corner = plane.uv * size - 0.5;
     let part = fract(corner);

@@ -62,8 +62,8 @@ struct SpotLight {
 @group(2) @binding(1) var nearest_comparison_sampler: sampler_comparison;
 @group(2) @binding(2) var trilinear_clamp_anisotropic16_sampler: sampler;
 @group(3) @binding(0) var<uniform> spot_space: LightSpace;
-@group(3) @binding(1) var spot_map: texture_depth_2d;
-@group(3) @binding(2) var spot_map_2: texture_2d<f32>;
+@group(3) @binding(1) var spot_pcf_map: texture_depth_2d;
+@group(3) @binding(2) var spot_vsm_map: texture_2d<f32>;
 
 fn point_light_ray(point: vec3f, position: vec3f) -> vec4f {
     let offset = position - point;
@@ -185,9 +185,8 @@ fn pcf_shadow(
     let position = light_position(space, point);
     let plane = receiver_plane(space, position, normal);
     let size = vec2f(textureDimensions(map));
-    let slope = receiver_slope(space, plane) / size;
     let curvature = receiver_curvature(space, plane, size, 0.5 * f32(WIDTH) + 0.5);
-    let margin = bias * space.depth.z + receiver_rounding(slope) + curvature;
+    let margin = bias * space.depth.z + receiver_rounding(receiver_slope(space, plane) / size) + curvature;
     // Bilinear taps on a grid share their texels: each texel is compared once, with the kernel convolved with the tent.
     let corner = plane.uv * size - 0.5;
     let part = fract(corner);
@@ -275,7 +274,7 @@ fn fs_main(in: Varyings) -> @location(0) vec4f {
     let pcf_visibility = pcf_shadow(
         in.position_world,
         spot_space,
-        spot_map,
+        spot_pcf_map,
         nearest_comparison_sampler,
         parameters.pcf_bias,
         object.receives,
@@ -284,7 +283,7 @@ fn fs_main(in: Varyings) -> @location(0) vec4f {
     let vsm_visibility = variance_shadow(
         in.position_world,
         spot_space,
-        spot_map_2,
+        spot_vsm_map,
         trilinear_clamp_anisotropic16_sampler,
         parameters.vsm_minimum_variance,
         parameters.vsm_bleeding_reduction,
