@@ -127,7 +127,7 @@ pub fn slots(module: &naga::Module) -> BTreeMap<(u32, u32), Slot> {
 }
 
 /// Writes a module in another language. `wgsl` is its text. The error says what that language cannot do.
-pub fn export(verified: &Verified, wgsl: &str, target: Target) -> Result<Vec<File>, Diagnostic> {
+pub fn export(verified: &Verified, wgsl: &str, target: Target) -> Result<Vec<File>, Box<Diagnostic>> {
     let one = |extension, bytes| vec![File { extension, bytes }];
     let written = on_large_stack(|| match target {
         Target::Wgsl => Ok(one("wgsl", wgsl.as_bytes().to_vec())),
@@ -138,7 +138,7 @@ pub fn export(verified: &Verified, wgsl: &str, target: Target) -> Result<Vec<Fil
     });
     let fail = |message: String| {
         let message = format!("the module cannot be written as {}: {message}", target.name());
-        Diagnostic::error("ST0508", message, Place::default()).help("choose another --target")
+        Box::new(Diagnostic::error("ST0508", message, Place::default()).help("choose another --target"))
     };
     written.map_err(|_| fail("naga stopped unexpectedly".into()))?.map_err(fail)
 }

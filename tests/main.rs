@@ -1,5 +1,6 @@
 //! All tests that use the package from outside, in one binary.
 #![allow(unreachable_pub, reason = "modules of one test binary see each other")]
+#![allow(clippy::print_stdout, clippy::print_stderr, reason = "tests say what they skip and how much they did")]
 
 mod cli;
 mod errors;

@@ -122,7 +122,7 @@ impl Generate {
         let mut parts = Vec::new();
         for shader in &shaders {
             let files = export(&shader.verified, &shader.compiled.module.wgsl, target);
-            parts.push(files.map_err(|d| vec![d])?);
+            parts.push(files.map_err(|d| vec![*d])?);
         }
         let files: Vec<_> =
             shaders.iter().zip(&parts).flat_map(|(s, files)| files.iter().map(move |f| (s, f))).collect();

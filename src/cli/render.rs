@@ -134,7 +134,7 @@ pub(super) fn adapter_options(name: Option<&str>) -> crate::render::AdapterOptio
         Some("cpu") => AdapterChoice::Cpu,
         Some(name) => AdapterChoice::Name(name.into()),
     };
-    AdapterOptions { choice, backends: std::env::var("WGPU_BACKEND").ok(), ..AdapterOptions::default() }
+    AdapterOptions { choice, backends: std::env::var("WGPU_BACKEND").ok() }
 }
 
 #[cfg(test)]

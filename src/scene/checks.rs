@@ -9,7 +9,7 @@ use super::primitive;
 pub(super) fn check(mesh: &Mesh) {
     let n = mesh.positions.len();
     assert_eq!([mesh.normals.len(), mesh.texcoords.len(), mesh.tangents.len(), mesh.colors.len()], [n; 4]);
-    assert!(mesh.indices.len() % 3 == 0 && mesh.indices.iter().all(|i| (*i as usize) < n));
+    assert!(mesh.indices.len().is_multiple_of(3) && mesh.indices.iter().all(|i| (*i as usize) < n));
     for (normal, tangent) in mesh.normals.iter().zip(&mesh.tangents) {
         assert!((normal.length() - 1.0).abs() < 1e-5, "{normal}");
         assert!((tangent.truncate().length() - 1.0).abs() < 1e-5, "{tangent}");

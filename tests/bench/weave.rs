@@ -2,6 +2,7 @@
 //!
 //! `cargo bench` prints it. A graph of N nodes is a chain with a side branch every few nodes, ending in a surface.
 #![allow(missing_docs, reason = "criterion's macros make the functions")]
+#![allow(clippy::print_stdout, reason = "a benchmark prints its figures")]
 
 use std::fmt::Write as _;
 use std::hint::black_box;

@@ -40,7 +40,7 @@ fn value(port: &Port, die: u32) -> Option<Value> {
         low + (high - low) * share
     };
     Some(match &port.ty.shape {
-        Shape::Bool => Value::Bool(die % 2 == 0),
+        Shape::Bool => Value::Bool(die.is_multiple_of(2)),
         Shape::I32 | Shape::U32 => Value::Numbers(vec![at(0).floor().max(low.ceil())]),
         Shape::F32(n) => Value::Numbers((0..u32::from(*n)).map(at).collect()),
         Shape::Generic => Value::Numbers((0..=die % 4).map(at).collect()),
@@ -126,7 +126,7 @@ fn write(drafts: &[Draft], wild: bool) -> String {
         made.push(definition);
     }
     // Half of the wild graphs say what is seen, so that loose ends do not hide everything else.
-    let output = match wild && drafts[0].choices.len() % 2 == 0 {
+    let output = match wild && drafts[0].choices.len().is_multiple_of(2) {
         false => format!(", output: \"n{}\"", drafts.len() - 1),
         true => String::new(),
     };
