@@ -1,4 +1,4 @@
-//! The command line. One table, [`Command`], feeds help, manual page and completions.
+//! The command line. One table, `Command`, feeds help, manual page and completions.
 //!
 //! stdout is data, stderr is messages and progress, `-` is stdin or stdout. Exit codes: see [`Exit`].
 

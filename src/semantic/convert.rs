@@ -1,8 +1,8 @@
 //! The one table of conversions, and the cheapest chain through it.
 //!
-//! [`steps`] is the table: from a type, what one conversion can make of it and what that costs. [`Conversions::chain`]
+//! `steps` is the table: from a type, what one conversion can make of it and what that costs. [`Conversions::chain`]
 //! finds the cheapest chain to what a port accepts, by shortest path over the types that are reachable. Only at the end
-//! of a chain may properties be forgotten ([`accepts`]), so that no chain launders a point into a colour. Costs are
+//! of a chain may properties be forgotten (`accepts`), so that no chain launders a point into a colour. Costs are
 //! 16 per vector operation, as in `reference` tables of shader weavers: a frame change 3 or 4 operations, a normalise 3.
 //! Lossy conversions (colour to luminance, dropping components, changing a quantity) are not in the table at all.
 

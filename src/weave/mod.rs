@@ -1,9 +1,9 @@
 //! From graphs and a catalogue to resolved wiring: which output feeds which port, through which conversions, under
 //! which lights. Everything that a person can get wrong in a graph is found here and reported together.
 //!
-//! The order of the work: collect the nodes of all graphs ([`collect`]), join light programs to surface programs
-//! ([`join`]), sort, follow lights through their shadows ([`lights`]), resolve the ports of each node together
-//! ([`resolve`]), and choose what the fragment shader writes ([`root`]). Nothing recurses on the depth of a graph.
+//! The order of the work: collect the nodes of all graphs (`collect`), join light programs to surface programs
+//! (`join`), sort, follow lights through their shadows (`lights`), resolve the ports of each node together
+//! (`resolve`), and choose what the fragment shader writes (`root`). Nothing recurses on the depth of a graph.
 
 mod assign;
 mod collect;

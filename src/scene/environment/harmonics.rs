@@ -29,10 +29,10 @@ fn cosine_lobe(index: usize) -> f64 {
     }
 }
 
-/// The coefficients c such that irradiance(n) = sum of c[i] * polynomial[i](n), W/m^2 for radiance in W/(m^2 sr).
+/// The coefficients c such that irradiance(n) = sum of `c[i] * polynomial[i](n)`, W/m^2 for radiance in W/(m^2 sr).
 ///
-/// With L = sum of l[i] k[i] p[i], l[i] = integral of L k[i] p[i], a cosine lobe turns each l[i] into A[i] l[i], so
-/// c[i] = A[i] k[i]^2 * integral of L p[i]. Exact for environments without detail above degree 2; the cosine lobe
+/// With `L = sum of l[i] k[i] p[i]`, `l[i] = integral of L k[i] p[i]`, a cosine lobe turns each `l[i]` into
+/// `A[i] l[i]`, so `c[i] = A[i] k[i]^2 * integral of L p[i]`. Exact for environments without detail above degree 2; the cosine lobe
 /// keeps so little of higher degrees that the error of others is a few percent of the brightest direction.
 pub fn irradiance(level: &Level) -> [Vec4; 9] {
     let mut sums = [DVec3::ZERO; 9];
