@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use crate::diagnostic::{Diagnostic, Place, has_errors, limited};
-use crate::emit::emit;
+use crate::emit::{emit, parameter_block};
 use crate::graph::Graph;
 use crate::module::Module;
 use crate::node::Catalog;
@@ -74,17 +74,16 @@ fn compile_unlimited(
 ) -> (Option<Compiled>, Vec<Diagnostic>) {
     let (woven, mut diagnostics) = weave(graphs, catalog, &options.output);
     let Some(woven) = woven else { return (None, diagnostics) };
-    let make = |bake| emit(&build(&woven, bake), catalog, &title(graphs));
-    let (mut module, mut plan, mut found) = make(if options.bake { Bake::All } else { Bake::Nothing });
+    let mut program = build(&woven, if options.bake { Bake::All } else { Bake::Nothing });
     // What no device need take as uniforms becomes constants, the nodes' own defaults first.
     for (bake, which) in [(Bake::Defaults, "values that no one changed"), (Bake::All, "all values")] {
-        if module.parameter_bytes > MAX_PARAMETER_BYTES {
-            found.push(too_many_parameters(&module, which, graphs));
-            let told = found;
-            (module, plan, found) = make(bake);
-            found.extend(told);
+        let (count, bytes) = parameter_block(&program);
+        if bytes > MAX_PARAMETER_BYTES {
+            diagnostics.push(too_many_parameters(count, bytes, which, graphs));
+            program = build(&woven, bake);
         }
     }
+    let (module, plan, mut found) = emit(&program, catalog, &title(graphs));
     diagnostics.append(&mut found);
     if has_errors(&diagnostics) { (None, diagnostics) } else { (Some(Compiled { module, plan }), diagnostics) }
 }
@@ -110,11 +109,9 @@ pub fn locate(mut diagnostic: Diagnostic, graphs: &[NamedGraph]) -> Diagnostic {
 /// The largest uniform block that every WebGPU device takes, in bytes (limit `maxUniformBufferBindingSize`).
 const MAX_PARAMETER_BYTES: u32 = 64 << 10;
 
-fn too_many_parameters(module: &Module, which: &str, graphs: &[NamedGraph]) -> Diagnostic {
+fn too_many_parameters(count: usize, bytes: u32, which: &str, graphs: &[NamedGraph]) -> Diagnostic {
     let message = format!(
-        "the {} parameters take {} bytes, and {MAX_PARAMETER_BYTES} is all that a device must take: {which} became constants",
-        module.parameters.len(),
-        module.parameter_bytes
+        "the {count} parameters take {bytes} bytes, and {MAX_PARAMETER_BYTES} is all that a device must take: {which} became constants"
     );
     let place = graphs.first().map_or_else(Place::default, |g| g.graph.file_place());
     let help =

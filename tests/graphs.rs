@@ -160,3 +160,42 @@ fn muted_nodes_are_passed_over() {
     assert_eq!(wgsl, compiled(&[plain], &Options::default()).module.wgsl);
     assert!(!wgsl.contains("shadow") && wgsl.contains("spot.irradiance"), "{wgsl}");
 }
+
+/// A stage of thousands of lines is shared out over functions, so that compilers need no quadratic time. What crosses
+/// from one to another is written once, before it is read.
+#[test]
+fn long_stages_are_shared_out() {
+    use std::fmt::Write as _;
+    let mut nodes = String::from(
+        r#""spot": (kind: "spot_light"), "vsm": (kind: "variance_shadow"), "body": (kind: "lambert"), "side": (kind: "front_facing"),
+        "split_place": (kind: "separate3"), "n0": (kind: "perlin3d"), "last": (kind: "combine3"), "place": (kind: "position"),"#,
+    );
+    let mut links = String::from(
+        r#""spot -> vsm", "vsm -> body", "place -> split_place", "last -> body.albedo", "split_place.x -> last.x", "n0 -> last.y","#,
+    );
+    for i in 1..1500 {
+        let _ = write!(nodes, "\"n{i}\": (kind: \"{}\"),", ["multiply", "sine", "smooth_step"][i % 3]);
+        let _ = write!(links, "\"n{} -> n{i}\",", i - 1);
+    }
+    let text = format!("Graph(version: 1, nodes: {{{nodes}}}, links: [{links} \"n1499 -> last.z\"], output: \"body\")");
+    let module = compiled(&[graph_text("long", &SourceText::new("long.ron", text))], &Options::default()).module;
+    let wgsl = &module.wgsl;
+    assert!(wgsl.contains("    part_1(in);\n    part_2(in);\n"), "{}", &wgsl[wgsl.len() - 400..]);
+    let longest = wgsl.split("\nfn ").map(|f| f.matches("    let ").count()).max();
+    assert!(longest <= Some(400), "{longest:?} lines in one function");
+    let variables: Vec<&str> =
+        wgsl.lines().filter_map(|l| l.strip_prefix("var<private> ")?.split(':').next()).collect();
+    assert!(variables.len() >= 3, "{variables:?}");
+    for name in variables {
+        let written = format!("    {name} = ");
+        assert_eq!(wgsl.matches(&written).count(), 1, "{name}");
+        // Members and the declaration itself are no reads.
+        let is_use = |at: usize| !wgsl[..at].ends_with('.') && !wgsl[..at].ends_with("var<private> ");
+        let words = shadetree::node::tokenize(wgsl).into_iter().filter(|t| t.text(wgsl) == name);
+        let first = words.map(|t| t.range.start).find(|at| is_use(*at));
+        assert_eq!(first, wgsl.find(&written).map(|at| at + 4), "{name} is read before it is written");
+    }
+    if let Some(complaints) = tint::complaints([("long", wgsl.as_str())]) {
+        assert!(complaints.is_empty(), "{}", complaints.join("\n"));
+    }
+}

@@ -5,6 +5,7 @@ use std::collections::BTreeMap;
 use super::Reached;
 use super::functions::Functions;
 use super::names::{Names, sanitise};
+use super::parts::{Division, divide};
 use super::stages::varying;
 use super::text::{Part, Text, is_atomic, parts};
 use crate::module::Origin;
@@ -61,14 +62,36 @@ pub(crate) fn write_fragment(
 ) {
     let printed = vec![Printed::default(); program.expressions.len()];
     let mut printer = Printer { program, reached, functions, variables, members, names, printed };
+    let division = divide(program, reached, root);
+    let (attribute, parameter, argument) = if reached.inputs.contains("front_facing") {
+        (", @builtin(front_facing) front_facing: bool", ", front_facing: bool", ", front_facing")
+    } else {
+        ("", "", "")
+    };
+    let count = division.as_ref().map_or(0, |d| d.parts);
+    let part_names: Vec<String> = (1..=count).map(|p| printer.names.fresh(&format!("part_{p}"))).collect();
+    if let Some(division) = &division {
+        let mut order = reached.order.iter().copied().peekable();
+        for (part, name) in part_names.iter().enumerate() {
+            // What has no line goes with the line after it.
+            let mut ids = Vec::new();
+            let belongs = |id: &Id| !reached.has_line(program, *id) || division.part_of(*id) <= part;
+            while let Some(id) = order.next_if(belongs) {
+                ids.push(id);
+            }
+            text.blank();
+            text.line(&format!("fn {name}(in: Varyings{parameter}) {{"));
+            printer.write_lines(text, &ids, Some(division));
+            text.line("}");
+            printer.write_variables(text, &ids, division);
+        }
+    }
     text.blank();
     text.line("@fragment");
-    let front_facing =
-        if reached.inputs.contains("front_facing") { ", @builtin(front_facing) front_facing: bool" } else { "" };
-    text.line(&format!("fn fs_main(in: Varyings{front_facing}) -> @location(0) vec4f {{"));
-    let mut last_comment = String::new();
-    for &id in &reached.order {
-        printer.write(text, id, &mut last_comment);
+    text.line(&format!("fn fs_main(in: Varyings{attribute}) -> @location(0) vec4f {{"));
+    match &division {
+        Some(division) => (0..division.parts).for_each(|p| text.line(&format!("    {}(in{argument});", part_names[p]))),
+        None => printer.write_lines(text, &reached.order, None),
     }
     let color = printer.printed[root.0 as usize].clone();
     let start = text.len();
@@ -86,13 +109,34 @@ pub(crate) fn write_fragment(
 }
 
 impl Printer<'_> {
-    fn write(&mut self, text: &mut Text, id: Id, last_comment: &mut String) {
+    fn write_lines(&mut self, text: &mut Text, ids: &[Id], division: Option<&Division>) {
+        let mut last_comment = String::new();
+        for &id in ids {
+            let read_later = division.is_some_and(|d| d.read_later[id.0 as usize]);
+            self.write(text, id, read_later, &mut last_comment);
+        }
+    }
+
+    /// The private variables for what later parts read of these.
+    fn write_variables(&self, text: &mut Text, ids: &[Id], division: &Division) {
+        text.blank();
+        for id in ids.iter().filter(|id| division.read_later[id.0 as usize]) {
+            let expression = self.program.get(*id);
+            let result = match expression.op {
+                Op::Call(function) => self.functions.results.get(&function),
+                _ => None,
+            };
+            let shape = || expression.shape.as_ref().map(Shape::wgsl).unwrap_or_default();
+            let ty = result.cloned().unwrap_or_else(shape);
+            text.line(&format!("var<private> {}: {ty};", self.printed[id.0 as usize].text));
+        }
+    }
+
+    fn write(&mut self, text: &mut Text, id: Id, read_later: bool, last_comment: &mut String) {
         let program = self.program;
         let expression = program.get(id);
         let printed = self.print(expression);
-        let leaf = expression.operands.is_empty() || matches!(expression.op, Op::Member(_));
-        let shared = self.reached.uses[id.0 as usize] > 1 && !leaf;
-        if !expression.result && !shared {
+        if !self.reached.has_line(program, id) {
             self.printed[id.0 as usize] = printed;
             return;
         }
@@ -103,7 +147,8 @@ impl Printer<'_> {
         }
         let name = self.name(expression);
         let start = text.len();
-        text.push(&format!("    let {name} = "));
+        let declare = if read_later { "" } else { "let " };
+        text.push(&format!("    {declare}{name} = "));
         let at = text.len();
         text.line(&format!("{};", printed.text));
         for node in &expression.origins {

@@ -16,6 +16,8 @@ pub(crate) struct Functions {
     others: Vec<(String, Option<usize>)>,
     /// The WGSL name of each function in use.
     pub(crate) names: BTreeMap<usize, String>,
+    /// The WGSL name of the structure that each of them returns, if it returns one.
+    pub(crate) results: BTreeMap<usize, String>,
 }
 
 impl Functions {
@@ -130,6 +132,8 @@ pub(crate) fn gather(program: &Program, reached: &Reached, catalog: &Catalog, na
         }
         let name = renamed.get(instance.function().name.as_str()).cloned().unwrap_or_default();
         functions.names.insert(index, name);
+        let result = instance.function().result_struct.as_deref().and_then(|s| renamed.get(s));
+        functions.results.extend(result.map(|s| (index, s.clone())));
     }
     functions
 }

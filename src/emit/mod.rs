@@ -9,6 +9,7 @@ mod body;
 mod functions;
 mod layout;
 mod names;
+mod parts;
 mod stages;
 mod text;
 
@@ -34,6 +35,15 @@ pub(crate) struct Reached {
     pub(crate) inputs: BTreeSet<&'static str>,
     pub(crate) functions: BTreeSet<usize>,
     pub(crate) resources: BTreeSet<Resource>,
+}
+
+impl Reached {
+    /// Whether an expression has a line of its own: the result of a node, or what is read more than once.
+    pub(crate) fn has_line(&self, program: &Program, id: Id) -> bool {
+        let expression = program.get(id);
+        let leaf = expression.operands.is_empty() || matches!(expression.op, Op::Member(_));
+        expression.result || (self.uses[id.0 as usize] > 1 && !leaf)
+    }
 }
 
 /// Follows operands from the root, without recursion.
@@ -80,6 +90,13 @@ fn reach(program: &Program, root: Id) -> Reached {
     }
     reached.uses[root.0 as usize] += 1;
     reached
+}
+
+/// Number of members and size in bytes of a program's parameter block, but for what only the spaces of maps need.
+pub fn parameter_block(program: &Program) -> (usize, u32) {
+    let Some(root) = program.root else { return (0, 0) };
+    let (members, bytes, _) = parameters(program, &reach(program, root), &Plan::default());
+    (members.len(), bytes)
 }
 
 /// The module and plan of a program. Diagnostics are about node and pass files only.

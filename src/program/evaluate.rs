@@ -75,7 +75,12 @@ impl Program {
             None => Op::Call(index),
         };
         let id = self.add(op, arguments, &name, Some(context.index));
+        let shape = match (&function.result_struct, function.outputs.first()) {
+            (None, Some(output)) => Some(node.output_type(output).shape),
+            _ => None,
+        };
         let expression = &mut self.expressions[id.0 as usize];
+        expression.shape = shape;
         expression.result = true;
         expression.light = context.light.filter(|_| !is_light(&node.definition) && !is_shadow(&node.definition));
         if function.result_struct.is_none() {
@@ -199,6 +204,7 @@ impl Program {
             text.push_str(rest);
             value = self.template(&text, operands, &format!("{base}_{}", step.label), None);
             let expression = &mut self.expressions[value.0 as usize];
+            expression.shape = Some(step.to.shape.clone());
             expression.origins.extend(origin);
             expression.port.get_or_insert_with(|| port.into());
         }
@@ -226,7 +232,9 @@ impl Program {
             return *one;
         }
         let slots: Vec<String> = (0..operands.len()).map(|i| format!("${i}")).collect();
-        self.template(&slots.join(&format!(" {operator} ")), operands.to_vec(), name, None)
+        let id = self.template(&slots.join(&format!(" {operator} ")), operands.to_vec(), name, None);
+        // Irradiance, radiance and visibility are summed and multiplied as colours.
+        self.shaped(id, Shape::F32(3))
     }
 
     fn parameter(&mut self, definition: &Definition, node: usize, port: &Port, value: &Value) -> Id {

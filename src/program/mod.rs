@@ -105,6 +105,8 @@ pub struct Expression {
     pub origins: BTreeSet<usize>,
     /// The port of the first such node that it feeds, for conversions.
     pub port: Option<Rc<str>>,
+    /// What carries its value, where that is known and no structure.
+    pub shape: Option<Shape>,
     /// Whether it is the result of a node, and so gets a line of its own.
     pub result: bool,
     /// The light that a node's result was evaluated under, where it is one of several terms.
@@ -227,6 +229,7 @@ impl Program {
             name: name.into(),
             origins,
             port: None,
+            shape: None,
             result: false,
             light: None,
         });
@@ -237,6 +240,19 @@ impl Program {
     /// A template over operands.
     pub fn template(&mut self, text: &str, operands: Vec<Id>, name: &str, origin: Option<usize>) -> Id {
         self.add(Op::Template { text: text.into(), function: None }, operands, name, origin)
+    }
+
+    /// Whether a variable can be declared for an expression: its shape is known, or it is a node's structure.
+    pub fn has_type(&self, id: Id) -> bool {
+        let expression = self.get(id);
+        let call = |f: usize| self.functions[f].function().result_struct.is_some();
+        expression.shape.is_some() || matches!(expression.op, Op::Call(f) if call(f))
+    }
+
+    /// Says what carries the value of an expression.
+    pub(crate) fn shaped(&mut self, id: Id, shape: Shape) -> Id {
+        self.expressions[id.0 as usize].shape = Some(shape);
+        id
     }
 
     /// The expression.

@@ -50,7 +50,11 @@ impl Program {
 
     fn of(&mut self, text: &str, leaves: &[Op], name: &str) -> Id {
         let operands = leaves.iter().map(|op| self.add(op.clone(), Vec::new(), name, None)).collect();
-        self.template(text, operands, name, None)
+        let id = self.template(text, operands, name, None);
+        match crate::node::source(name) {
+            Some(source) => self.shaped(id, source.ty.shape.clone()),
+            None => id,
+        }
     }
 }
 
