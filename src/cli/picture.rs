@@ -17,6 +17,7 @@ use crate::compile::{NamedGraph, Options, Output};
 use crate::diagnostic::{Diagnostic, Place};
 use crate::render::{self, ColorFormat, Draw, Gpu, Job, Picture, RenderError, Surroundings, SurroundingsLevel, Texels};
 use crate::scene::{Environment, Scene, environment};
+use crate::weave::light_called;
 
 pub(super) fn once(command: &Render, context: &Context, loader: &Loader, gpu: &mut Option<Gpu>) -> Outcome {
     let (catalog, found) = loader.catalog(&command.nodes)?;
@@ -104,14 +105,8 @@ fn draw(command: &Render, context: &Context, job: &Job<'_>, gpu: &mut Option<Gpu
 fn full_name(job: &Job<'_>, light: &str) -> String {
     let lights: BTreeSet<&str> =
         job.draws.iter().flat_map(|d| &d.shader.plan.lights).map(|l| l.name.as_str()).collect();
-    let only = |test: &dyn Fn(&str) -> bool| {
-        let mut found = lights.iter().filter(|name| test(name));
-        found.next().filter(|_| found.next().is_none())
-    };
-    let found = only(&|n| n == light)
-        .or_else(|| only(&|n| n.split_once('/').is_some_and(|(graph, _)| graph == light)))
-        .or_else(|| only(&|n| n.rsplit('/').next() == Some(light)));
-    found.map_or_else(|| light.to_owned(), |name| (*name).to_owned())
+    let found = light_called(lights.iter().copied(), light);
+    found.unwrap_or(light).to_owned()
 }
 
 /// The scene, the file that its paths count from, and a shader for each of its objects.

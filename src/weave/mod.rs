@@ -22,7 +22,7 @@ use crate::diagnostic::{Diagnostic, Place, has_errors};
 use crate::node::{Catalog, Definition, Port};
 use crate::semantic::{Chain, Conversions, Kind, Quantity, Shape, Type, Value};
 
-pub use root::Root;
+pub use root::{Root, light_called};
 
 /// Resolved wiring, in evaluation order.
 pub struct Woven {

@@ -89,17 +89,23 @@ fn shadows_of(collected: &Collected, nodes: &[Option<Node>], light: usize) -> Ve
     shadows
 }
 
+/// The one of these light names that a person means by all of it, by its graph, or by its node.
+pub fn light_called<'a>(names: impl Iterator<Item = &'a str> + Clone, wanted: &str) -> Option<&'a str> {
+    let only = |test: &dyn Fn(&str) -> bool| {
+        let mut found = names.clone().filter(|name| test(name));
+        found.next().filter(|_| found.next().is_none())
+    };
+    only(&|n| n == wanted)
+        .or_else(|| only(&|n| n.split_once('/').is_some_and(|(graph, _)| graph == wanted)))
+        .or_else(|| only(&|n| n.rsplit('/').next() == Some(wanted)))
+}
+
 fn find_light(collected: &Collected, nodes: &[Option<Node>], name: &str, out: &mut Vec<Diagnostic>) -> Option<usize> {
     let lights: Vec<usize> =
         (0..nodes.len()).filter(|i| nodes[*i].as_ref().is_some_and(|n| n.lights.contains_key(i))).collect();
     let id = |i: &usize| collected.nodes[*i].id.as_str();
-    let by = |test: &dyn Fn(&str) -> bool| {
-        let found: Vec<usize> = lights.iter().copied().filter(|i| test(id(i))).collect();
-        if let [one] = found[..] { Some(one) } else { None }
-    };
-    let graph = |i: &str| i.split_once('/').is_some_and(|(graph, _)| graph == name);
-    let last = |i: &str| i.rsplit('/').next() == Some(name);
-    let found = by(&|i| i == name).or_else(|| by(&graph)).or_else(|| by(&last));
+    let called = light_called(lights.iter().map(id), name);
+    let found = called.and_then(|full| lights.iter().copied().find(|i| id(i) == full));
     if found.is_none() {
         let names: Vec<&str> = lights.iter().map(id).collect();
         let error = Diagnostic::error("ST0219", format!("there is no light called `{name}`"), Place::default());
