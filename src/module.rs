@@ -52,17 +52,19 @@ pub enum Resource {
     },
     /// A sampler.
     Sampler(SamplerSettings),
-    /// Uniform `LightSpace` (96 bytes) of the light with this name in the plan.
+    /// Uniform `LightSpace` (112 bytes) of the light with this name in the plan, or an array of one for each of its views.
     Space {
         /// Name in the plan.
         light: String,
+        /// Number of views; 1 is no array.
+        views: u32,
     },
-    /// Map with this index in the plan; `depth` tells `texture_depth_2d` from `texture_2d<f32>`.
+    /// Map with this index in the plan, one layer per view.
     Map {
         /// Index in the plan.
         index: usize,
-        /// Whether it is a depth texture.
-        depth: bool,
+        /// WGSL type: `texture_depth_2d_array`, or `texture_2d_array` of `f32` or `u32`.
+        ty: String,
     },
     /// `texture_2d<f32>`: equirectangular surroundings, rougher with each mip level. +y is the top row; the middle of
     /// the picture is -z.

@@ -51,8 +51,10 @@ fn binding(binding: &Binding, parameter_bytes: u32) -> Map<String, Json> {
             json!({ "kind": "image", "path": path, "relative_to": base, "srgb": srgb })
         }
         Resource::Sampler(settings) => sampler(settings),
-        Resource::Space { light } => json!({ "kind": "space", "light": light, "bytes": 96 }),
-        Resource::Map { index, depth } => json!({ "kind": "map", "map": index, "depth": depth }),
+        Resource::Space { light, views } => {
+            json!({ "kind": "space", "light": light, "views": views, "bytes": 112 * views })
+        }
+        Resource::Map { index, ty } => json!({ "kind": "map", "map": index, "type": ty }),
         Resource::Environment => json!({ "kind": "environment" }),
         Resource::EnvironmentSampler => json!({ "kind": "environment_sampler" }),
     };

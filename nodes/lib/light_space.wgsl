@@ -1,13 +1,18 @@
 //! The space that a light's maps are made in: where a point lies in it, and how a receiving plane runs through it.
 
-/// One light's view of the scene, filled by the host; 96 bytes. Lengths are metres.
+/// One view that a light has of the scene, filled by the host; 112 bytes. Lengths are metres.
 struct LightSpace {
     /// Rigid: the light at the origin, looking along +z, +y up.
     world_to_light: mat4x4f,
     /// x, y: focal factors, ndc = projection.xy * light.xy / (perspective ? light.z : 1). z: 1 perspective, 0 parallel.
+    /// w: layer of the light's maps that shows this view.
     projection: vec4f,
-    /// x: near, y: far, z: 1 / (far - near).
+    /// x: near, y: far, z: 1 / (far - near). w: distance from the eye up to which this view is used.
     depth: vec4f,
+    /// Half size of the shining surface along x and y: metres across the axis (perspective) or tangents of the angles that
+    /// it is seen under (parallel). z: 1 an ellipse, 0 a rectangle. w: texels per metre here over those of the light's
+    /// coarsest view.
+    source: vec4f,
 }
 
 /// The plane of the surface that is shaded, ready to be met by the ray through any other place on the map.
@@ -65,6 +70,46 @@ fn light_clip_position(space: LightSpace, position: vec3f) -> vec4f {
     let perspective_z = position.z - space.depth.x;
     let parallel = vec4f(xy, light_linear_depth(space, position.z), 1.0);
     return select(parallel, vec4f(xy, perspective_z, position.z), space.projection.z > 0.5);
+}
+
+/// The layer of the light's maps that shows this view.
+fn light_layer(space: LightSpace) -> i32 {
+    return i32(space.projection.w);
+}
+
+/// Change of the map coordinate per pixel where the point (light coordinates) changes by `change` (world). Taken from the
+/// point, which is continuous, and not from map coordinates, which jump where two pixels are seen by different views.
+fn light_map_change(space: LightSpace, position: vec3f, change: vec3f) -> vec2f {
+    let moved = (space.world_to_light * vec4f(change, 0.0)).xyz;
+    let perspective = (moved.xy - light_ray(space, position) * moved.z) / max(position.z, 1e-6);
+    let ray = select(moved.xy, perspective, space.projection.z > 0.5);
+    return ray * space.projection.xy * vec2f(0.5, -0.5);
+}
+
+/// Which of the six views along +x, -x, +y, -y, +z, -z sees a world point. `first` is the one along +x, whose own axes
+/// are -z, +y and +x of the world.
+fn cube_view(first: LightSpace, point: vec3f) -> u32 {
+    let seen = light_position(first, point);
+    let offset = vec3f(seen.z, seen.y, -seen.x);
+    let size = abs(offset);
+    if (size.x >= size.y && size.x >= size.z) {
+        return select(0u, 1u, offset.x < 0.0);
+    }
+    if (size.y >= size.z) {
+        return select(2u, 3u, offset.y < 0.0);
+    }
+    return select(4u, 5u, offset.z < 0.0);
+}
+
+/// One split for the four pixels of a quad, so that differences within it are of one map (Lauritzen 2007): powers of two
+/// can be told from their differences, whichever pixel asks. Quads with three or four different splits may stay split.
+fn split_of_quad(split: u32) -> u32 {
+    let power = f32(1u << split);
+    let across = abs(dpdxFine(power));
+    let down = abs(dpdyFine(power));
+    let mixed = abs(dpdxFine(down));
+    let most = u32(round(max(mixed, max(across, down))));
+    return select(split, firstLeadingBit(most), most > 0u);
 }
 
 /// Whether the map knows nothing about a point: beside the map, or in front of its near plane.

@@ -3,7 +3,7 @@
 //! synonyms: spotlight, cone light, projector, torch
 //! use: light_falloff
 //! Light from a point within a cone, with a smooth edge. It falls off with the square of the distance; nothing else bounds it.
-//! space: perspective(position, direction, outer_angle, near, range)
+//! space: perspective(position, direction, outer_angle, near, range, radius)
 
 /// point (point world; = @position_world; hidden): The shaded point.
 /// position (point world; = (2, 4, 3); in m): Where the light is.
@@ -14,6 +14,7 @@
 /// outer_angle (angle; = 30; 0.1..89; in deg): From the axis to where the light ends; maps cover this cone.
 /// near (distance; = 0.1; 0.001..; in m): Where maps begin; nothing nearer casts a shadow.
 /// range (distance; = 12; 0.01..; in m): Where maps end. The light goes on beyond.
+/// radius (distance; = 0.1; 0..; in m): Of the shining ball. Only shadows with penumbrae as wide as nature's ask for it.
 /// -> irradiance (color irradiance): Light that arrives, measured facing the light.
 /// -> direction (direction world unit): Towards the light.
 /// -> distance (distance): To the light.
@@ -27,6 +28,7 @@ fn spot_light(
     outer_angle: f32,
     near: f32,
     range: f32,
+    radius: f32,
 ) -> SpotLight {
     let ray = point_light_ray(point, position);
     let axis = direction * inverseSqrt(max(dot(direction, direction), 1e-20));

@@ -17,19 +17,20 @@
 fn hard_shadow(
     point: vec3f,
     space: LightSpace,
-    map: texture_depth_2d,
+    map: texture_depth_2d_array,
     map_sampler: sampler_comparison,
     bias: f32,
     receives: f32,
 ) -> f32 {
     let normal = geometric_normal(point);
     let position = light_position(space, point);
+    let layer = light_layer(space);
     let plane = receiver_plane(space, position, normal);
     let size = vec2f(textureDimensions(map));
     let rounding = receiver_rounding(receiver_slope(space, plane) / size) + receiver_curvature(space, plane, size, 0.5);
     let margin = bias * space.depth.z + rounding;
     let center = (floor(plane.uv * size) + 0.5) / size;
     let depth = receiver_depth(space, plane, center) - margin;
-    let visibility = textureSampleCompareLevel(map, map_sampler, center, depth);
+    let visibility = textureSampleCompareLevel(map, map_sampler, center, layer, depth);
     return select(visibility, 1.0, receives < 0.5 || outside_light_map(space, position, plane.uv));
 }

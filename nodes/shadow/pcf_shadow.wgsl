@@ -29,7 +29,7 @@ const WIDTH: i32 = 5;
 fn pcf_shadow(
     point: vec3f,
     space: LightSpace,
-    map: texture_depth_2d,
+    map: texture_depth_2d_array,
 //#if taps == hardware
     blending_sampler: sampler_comparison,
 //#else
@@ -40,6 +40,7 @@ fn pcf_shadow(
 ) -> f32 {
     let normal = geometric_normal(point);
     let position = light_position(space, point);
+    let layer = light_layer(space);
     let plane = receiver_plane(space, position, normal);
     let size = vec2f(textureDimensions(map));
 //#if width == 1
@@ -70,17 +71,17 @@ fn pcf_shadow(
     let uv_10 = texel + vec2f(next.x, 0.0);
     let uv_01 = texel + vec2f(0.0, next.y);
     let uv_11 = texel + next;
-    let lit_00 = textureSampleCompareLevel(map, map_sampler, texel, receiver_depth(space, plane, texel) - margin);
-    let lit_10 = textureSampleCompareLevel(map, map_sampler, uv_10, receiver_depth(space, plane, uv_10) - margin);
-    let lit_01 = textureSampleCompareLevel(map, map_sampler, uv_01, receiver_depth(space, plane, uv_01) - margin);
-    let lit_11 = textureSampleCompareLevel(map, map_sampler, uv_11, receiver_depth(space, plane, uv_11) - margin);
+    let lit_00 = textureSampleCompareLevel(map, map_sampler, texel, layer, receiver_depth(space, plane, texel) - margin);
+    let lit_10 = textureSampleCompareLevel(map, map_sampler, uv_10, layer, receiver_depth(space, plane, uv_10) - margin);
+    let lit_01 = textureSampleCompareLevel(map, map_sampler, uv_01, layer, receiver_depth(space, plane, uv_01) - margin);
+    let lit_11 = textureSampleCompareLevel(map, map_sampler, uv_11, layer, receiver_depth(space, plane, uv_11) - margin);
     let visibility = mix(mix(lit_00, lit_10, part.x), mix(lit_01, lit_11, part.x), part.y);
 //#elif taps == nearest
     let uv = (floor(plane.uv * size) + 0.5) / size;
-    let visibility = textureSampleCompareLevel(map, map_sampler, uv, receiver_depth(space, plane, uv) - margin);
+    let visibility = textureSampleCompareLevel(map, map_sampler, uv, layer, receiver_depth(space, plane, uv) - margin);
 //#else
     let depth = receiver_depth(space, plane, plane.uv + nearer) - margin;
-    let visibility = textureSampleCompareLevel(map, blending_sampler, plane.uv, depth);
+    let visibility = textureSampleCompareLevel(map, blending_sampler, plane.uv, layer, depth);
 //#end
 //#else
 //#if taps == bilinear
@@ -133,10 +134,10 @@ fn pcf_shadow(
             let uv = (first + vec2f(f32(x + WIDTH / 2), f32(y + WIDTH / 2))) / size;
 //#if taps == hardware
             let depth = receiver_depth(space, plane, uv + nearer) - margin;
-            sum += weight * textureSampleCompareLevel(map, blending_sampler, uv, depth);
+            sum += weight * textureSampleCompareLevel(map, blending_sampler, uv, layer, depth);
 //#else
             let depth = receiver_depth(space, plane, uv) - margin;
-            sum += weight * textureSampleCompareLevel(map, map_sampler, uv, depth);
+            sum += weight * textureSampleCompareLevel(map, map_sampler, uv, layer, depth);
 //#end
             total += weight;
         }

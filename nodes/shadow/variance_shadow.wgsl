@@ -25,7 +25,7 @@
 fn variance_shadow(
     point: vec3f,
     space: LightSpace,
-    map: texture_2d<f32>,
+    map: texture_2d_array<f32>,
     map_sampler: sampler,
     minimum_variance: f32,
     bleeding_reduction: f32,
@@ -34,9 +34,11 @@ fn variance_shadow(
     let position = light_position(space, point);
     let uv = light_map_uv(space, position);
 //#if mips == on
-    let moments = textureSampleGrad(map, map_sampler, uv, dpdx(uv), dpdy(uv)).xy;
+    let uv_dx = light_map_change(space, position, dpdx(point));
+    let uv_dy = light_map_change(space, position, dpdy(point));
+    let moments = textureSampleGrad(map, map_sampler, uv, light_layer(space), uv_dx, uv_dy).xy;
 //#else
-    let moments = textureSampleLevel(map, map_sampler, uv, 0.0).xy;
+    let moments = textureSampleLevel(map, map_sampler, uv, light_layer(space), 0.0).xy;
 //#end
     // Beyond the far plane the map holds depths above 1, if its format can: there the receiver is lit where it is what
     // the map shows, and in the shadow of anything nearer.

@@ -1,5 +1,6 @@
 //! Binding numbers: group 0 frame and surroundings, 1 object, 2 material, 3 lights.
 
+use std::borrow::Cow;
 use std::collections::BTreeMap;
 
 use super::Reached;
@@ -52,14 +53,17 @@ pub(crate) fn bind(
         match resource {
             Resource::Map(map) => {
                 let index = maps.iter().find(|(old, _)| old == map).map_or(0, |(_, new)| *new);
-                let bound = Bound::Map { index, depth: program.maps[*map].depth };
+                let bound = Bound::Map { index, ty: program.maps[*map].ty.clone() };
                 // One map says whose it is; of several each says which shadow asked first.
                 let several = maps.iter().filter(|(old, _)| program.maps[*old].light == light).count() > 1;
                 let asked = &program.nodes[program.maps[*map].node].short;
                 let name = if several { format!("{}_{asked}_map", info.short) } else { format!("{}_map", info.short) };
                 add(3, &name, resource, bound, names);
             }
-            _ => add(3, &format!("{}_space", info.short), resource, Bound::Space { light: info.id.clone() }, names),
+            _ => {
+                let views = info.definition.header.space.as_ref().map_or(1, |s| s.views(&info.definition));
+                add(3, &format!("{}_space", info.short), resource, Bound::Space { light: info.id.clone(), views }, names);
+            }
         }
     }
     bindings.sort_by_key(|b| (b.group, b.binding));
@@ -88,15 +92,16 @@ fn sampler_name(settings: &SamplerSettings) -> String {
 
 /// The declaration of a binding's variable.
 pub(crate) fn declaration(binding: &Binding) -> String {
-    let (space, ty) = match &binding.resource {
-        Bound::Frame => ("<uniform>", "Frame"),
-        Bound::Object => ("<uniform>", "Object"),
-        Bound::Parameters => ("<uniform>", "Parameters"),
-        Bound::Space { .. } => ("<uniform>", "LightSpace"),
-        Bound::Map { depth: true, .. } => ("", "texture_depth_2d"),
-        Bound::Image { .. } | Bound::Map { .. } | Bound::Environment => ("", "texture_2d<f32>"),
-        Bound::Sampler(SamplerSettings { compare: true, .. }) => ("", "sampler_comparison"),
-        Bound::Sampler(_) | Bound::EnvironmentSampler => ("", "sampler"),
+    let (space, ty): (&str, Cow<'_, str>) = match &binding.resource {
+        Bound::Frame => ("<uniform>", "Frame".into()),
+        Bound::Object => ("<uniform>", "Object".into()),
+        Bound::Parameters => ("<uniform>", "Parameters".into()),
+        Bound::Space { views: 1, .. } => ("<uniform>", "LightSpace".into()),
+        Bound::Space { views, .. } => ("<uniform>", format!("array<LightSpace, {views}>").into()),
+        Bound::Map { ty, .. } => ("", ty.as_str().into()),
+        Bound::Image { .. } | Bound::Environment => ("", "texture_2d<f32>".into()),
+        Bound::Sampler(SamplerSettings { compare: true, .. }) => ("", "sampler_comparison".into()),
+        Bound::Sampler(_) | Bound::EnvironmentSampler => ("", "sampler".into()),
     };
     format!("@group({}) @binding({}) var{space} {}: {ty};", binding.group, binding.binding, binding.name)
 }

@@ -85,8 +85,12 @@ pub(crate) fn gather(program: &Program, reached: &Reached, catalog: &Catalog, na
         own.push((index, kept));
     }
     // The space of a light is a structure even where no node mentions it by name.
-    if reached.resources.iter().any(|r| matches!(r, Resource::Space(_))) {
-        roots.insert("LightSpace");
+    for resource in &reached.resources {
+        if let Resource::Space(light) = resource {
+            let definition = &program.nodes[*light].definition;
+            roots.insert("LightSpace");
+            roots.extend(definition.header.space.as_ref().and_then(|s| s.selector(definition)));
+        }
     }
     let items: Vec<&Item> = order.iter().filter_map(|n| library.get(n).copied()).collect();
     let roots: Vec<&str> = roots.into_iter().filter(|r| library.contains_key(r)).collect();

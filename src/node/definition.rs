@@ -69,13 +69,15 @@ pub struct OptionSpec {
     pub doc: String,
 }
 
-/// `space: perspective(a, b, ...)`: a projection and the inputs that define it.
+/// `space: perspective(a, b, ...) key=value`: a projection and the inputs that define it.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct SpaceSpec {
-    /// `perspective` or `orthographic`.
+    /// Name of one of [`super::PROJECTIONS`].
     pub projection: String,
     /// Input names, in the order of the projection's parameters.
     pub inputs: Vec<String>,
+    /// Settings; values are literals or `$option`.
+    pub settings: Vec<(String, String)>,
 }
 
 /// `map PORT: pass(a=1) > pass(b=$option)`.

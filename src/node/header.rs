@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use super::definition::{Header, MapSpec, OptionSpec, SamplerSpec, SpaceSpec, TextureSpec};
 use super::report::{Piece, Report, lines};
+use super::projection::{PROJECTIONS, Projection};
 use super::settings;
 use super::tokens::is_identifier;
 use crate::diagnostic::{Diagnostic, SourceText, did_you_mean};
@@ -161,26 +162,25 @@ impl<'a> Reader<'a> {
     }
 
     fn space(&mut self, value: Piece<'a>) {
-        let Some((projection, arguments)) = settings::call(&mut self.report, value) else {
+        let end = value.text.rfind(')').map_or(value.text.len(), |at| at + 1);
+        let (call, rest) = (value.slice(0..end), value.slice(end..value.text.len()).trim());
+        let Some((name, arguments)) = settings::call(&mut self.report, call) else {
             return;
         };
-        let parameters: &[&str] = match projection.text {
-            "perspective" => &["position", "direction", "outer_angle", "near", "range"],
-            "orthographic" => &["direction", "center", "radius"],
-            other => {
-                self.report
-                    .error("ST0102", projection.range(), format!("`{other}` is not a projection"))
-                    .help("projections are perspective(position, direction, outer_angle, near, range) and orthographic(direction, center, radius)");
-                return;
-            }
+        let Some(projection) = Projection::named(name.text) else {
+            let known: Vec<String> = PROJECTIONS.iter().map(Projection::signature).collect();
+            self.report
+                .error("ST0102", name.range(), format!("`{}` is not a projection", name.text))
+                .help(format!("projections are {}", known.join(", ")));
+            return;
         };
         let inputs = arguments.map_or(Vec::new(), |a| a.split(','));
-        if inputs.len() != parameters.len() {
+        if inputs.len() != projection.needed && inputs.len() != projection.inputs.len() {
             self.report
                 .error(
                     "ST0102",
-                    value.range(),
-                    format!("{}({}) takes {} inputs", projection.text, parameters.join(", "), parameters.len()),
+                    call.range(),
+                    format!("{} takes {} inputs", projection.signature(), projection.needed),
                 )
                 .help("name an input of this node for each, in this order");
         }
@@ -188,7 +188,8 @@ impl<'a> Reader<'a> {
             self.port(*input);
         }
         let inputs = inputs.iter().map(|i| i.text.to_owned()).collect();
-        self.header.space = Some(SpaceSpec { projection: projection.text.to_owned(), inputs });
+        let settings = settings::space(&mut self.report, rest, projection, &mut self.mentioned);
+        self.header.space = Some(SpaceSpec { projection: projection.name.to_owned(), inputs, settings });
     }
 
     fn named(&mut self, key: &str, name: Piece<'a>, value: Piece<'a>) {

@@ -51,13 +51,15 @@ pub struct PassFile {
     pub axes: Vec<String>,
     /// When it is left out.
     pub skip: Option<Skip>,
+    /// Whether an image pass reads the light's view (`reads: light`): group 0 binding 1, `LightSpace`.
+    pub reads_light: bool,
     /// All other header lines joined by spaces.
     pub description: String,
     /// The file.
     pub source: Arc<SourceText>,
 }
 
-const KEYS: &[&str] = &["kind", "use", "target", "clear", "axes", "skip", "option", "label"];
+const KEYS: &[&str] = &["kind", "use", "target", "clear", "axes", "skip", "reads", "option", "label"];
 
 impl PassFile {
     /// Reads the header of a pass; the file's stem is its name.
@@ -75,6 +77,7 @@ impl PassFile {
             clear: Vec::new(),
             axes: Vec::new(),
             skip: None,
+            reads_light: false,
             description: String::new(),
             source: source.clone(),
         };
@@ -151,6 +154,14 @@ impl PassFile {
             "use" => self.uses = settings::names(report, value),
             "option" => self.options.extend(settings::option(report, key[1], value)),
             "target" => self.targets = alternatives(report),
+            "reads" => {
+                self.reads_light = value.text == "light";
+                if !self.reads_light {
+                    report
+                        .error("ST0138", value.range(), format!("`{}` is nothing that a pass can read", value.text))
+                        .help("write `reads: light`, or leave the line out");
+                }
+            }
             "axes" => {
                 self.axes = alternatives(report);
                 if self.axes.iter().any(|a| a != "x" && a != "y") {

@@ -1,6 +1,7 @@
 //! The small languages of header values: lists, calls, options, chains of passes.
 
 use super::definition::OptionSpec;
+use super::projection::{MOST_VIEWS, Projection};
 use super::report::{Piece, Report};
 use super::tokens::is_identifier;
 use crate::diagnostic::did_you_mean;
@@ -163,6 +164,22 @@ pub(crate) fn texture<'a>(
 ) -> Vec<(String, String)> {
     let known = |key: &str, value: &str| (key == "encoding").then_some(matches!(value, "srgb" | "linear"));
     checked(report, value, mentioned, &known, "encoding")
+}
+
+/// Settings of a projection.
+pub(crate) fn space<'a>(
+    report: &mut Report,
+    value: Piece<'a>,
+    projection: &Projection,
+    mentioned: &mut Vec<Piece<'a>>,
+) -> Vec<(String, String)> {
+    let views = |value: &str| value.parse::<u32>().is_ok_and(|n| (1..=MOST_VIEWS).contains(&n));
+    let known = |key: &str, value: &str| {
+        let (_, values) = projection.settings.iter().find(|(name, _)| *name == key)?;
+        Some(values.iter().any(|v| *v == value || (*v == "*" && views(value))))
+    };
+    let names: Vec<&str> = projection.settings.iter().map(|(name, _)| *name).collect();
+    checked(report, value, mentioned, &known, &names.join(", "))
 }
 
 fn checked<'a>(

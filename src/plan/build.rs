@@ -16,7 +16,9 @@ pub fn plan(program: &Program, used: &[usize], lights: &[usize], catalog: &Catal
         let info = &program.nodes[light];
         let space = info.definition.header.space.as_ref().map(|spec| Space {
             projection: spec.projection.clone(),
-            inputs: spec.inputs.iter().map(|input| format!("{}.{input}", info.id)).collect(),
+            inputs: spec.inputs_of(&info.definition).map(|input| format!("{}.{input}", info.id)).collect(),
+            settings: spec.all_settings(&info.definition),
+            views: spec.views(&info.definition),
         });
         plan.lights.push(Light { name: info.id.clone(), space });
     }
@@ -109,6 +111,7 @@ fn expand(
             wgsl,
             targets,
             clear: file.clear.clone(),
+            reads_light: file.reads_light,
         });
     }
 }

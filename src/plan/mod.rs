@@ -30,11 +30,18 @@ pub struct Light {
 /// A projection by name, and the parameters that define it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Space {
-    /// `perspective`: position (m, world), direction (along the axis, any length), outer_angle (radians, half the
-    /// opening), near (m), range (m). `orthographic`: direction, center (m, world), radius (m; 0 = fit the scene).
+    /// Name of one of [`crate::node::PROJECTIONS`]. `perspective`: position (m, world), direction (along the axis, any
+    /// length), outer_angle (radians, half the opening), near (m), range (m), radius (m, of the light itself).
+    /// `rectangle`: as before, but with width and height (m) of the light. `cube`: position, near, range, radius.
+    /// `orthographic`: direction, center (m, world), radius (m; 0 = fit the scene), angle (radians, from the middle of the
+    /// light to its rim), and for several splits their balance (0 even, 1 logarithmic) and reach (m; 0 = all).
     pub projection: String,
     /// Path of the parameter for each of those, in that order.
     pub inputs: Vec<String>,
+    /// Settings of the projection, all of them.
+    pub settings: BTreeMap<String, String>,
+    /// Number of views, and so of layers of each map.
+    pub views: u32,
 }
 
 /// A texture in a light's space.
@@ -51,7 +58,7 @@ pub struct Map {
 impl Map {
     /// Side in texels: the `size` option of the first pass that has one.
     pub fn size(&self) -> u32 {
-        self.passes.iter().find_map(|p| p.choices.get("size")?.parse().ok()).unwrap_or(1024)
+        self.passes.iter().find_map(|p| p.number("size")).unwrap_or(1024)
     }
 }
 
@@ -70,4 +77,15 @@ pub struct Pass {
     pub targets: Vec<String>,
     /// Clear value per channel.
     pub clear: Vec<f64>,
+    /// Whether an image pass reads the light's view: group 0 binding 1, `LightSpace`.
+    pub reads_light: bool,
+}
+
+impl Pass {
+    /// The choice of an option as a whole number. Options with these names mean something to who runs the passes: `size`
+    /// (texels on a side), `scale` (how many times smaller the target is than the source), `samples` (per texel, of a
+    /// geometry pass), `cull` (`front` or `back` sides of triangles left out), `format`.
+    pub fn number(&self, option: &str) -> Option<u32> {
+        self.choices.get(option)?.parse().ok()
+    }
 }

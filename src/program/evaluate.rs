@@ -120,9 +120,7 @@ impl Program {
             Wire::Value(value) => Some(self.parameter(&node.definition, context.index, port, value)),
             Wire::Source(name) => Some(self.provided(context, name, port)),
             Wire::Space => {
-                let light = context.light?;
-                let name = format!("{}_space", self.nodes[light].short);
-                Some(self.add(Op::Resource(Resource::Space(light)), Vec::new(), &name, origin))
+                Some(self.view_of_light(context.light?, origin))
             }
             Wire::Map => {
                 let index = self.map(&node.definition, context.index, context.light?, port);
@@ -279,16 +277,16 @@ impl Program {
                 (name.clone(), resolved.collect())
             })
             .collect();
-        let depth = port.ty.shape == Shape::DepthTexture;
-        let filtered = !depth
+        let ty = port.ty.shape.wgsl();
+        let filtered = !ty.starts_with("texture_depth")
             && definition
                 .inputs()
                 .any(|p| p.ty.shape == Shape::Sampler && sampler_settings(definition, &p.name).linear);
-        if let Some(i) = self.maps.iter().position(|m| m.light == light && m.passes == passes && m.depth == depth) {
+        if let Some(i) = self.maps.iter().position(|m| m.light == light && m.passes == passes && m.ty == ty) {
             self.maps[i].filtered |= filtered;
             return i;
         }
-        self.maps.push(MapDemand { light, passes, depth, filtered, node, port: port.name.clone() });
+        self.maps.push(MapDemand { light, passes, ty, filtered, node, port: port.name.clone() });
         self.maps.len() - 1
     }
 

@@ -7,6 +7,7 @@
 mod build;
 mod evaluate;
 mod source;
+mod views;
 
 use std::collections::{BTreeMap, BTreeSet, HashMap};
 use std::rc::Rc;
@@ -152,8 +153,8 @@ pub struct MapDemand {
     pub light: usize,
     /// Passes with their options, `$option` resolved.
     pub passes: Vec<(String, BTreeMap<String, String>)>,
-    /// Whether it is read as a depth texture.
-    pub depth: bool,
+    /// WGSL type that it is read as.
+    pub ty: String,
     /// Whether some sampler interpolates in it.
     pub filtered: bool,
     /// Index of the node that asked first.

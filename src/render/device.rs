@@ -151,6 +151,17 @@ impl Device {
         Ok(buffer)
     }
 
+    /// Whether shaders can read one layer of an array as if it were a texture of its own.
+    pub(super) fn reads_layers(&self) -> bool {
+        self.summary.backend != "gl"
+    }
+
+    /// How many layers an array for `wanted` views gets. OpenGL takes one layer for no array, and six for a cube.
+    pub(super) fn array_layers(&self, wanted: u32) -> u32 {
+        let mistaken = wanted == 1 || wanted.is_multiple_of(6);
+        if mistaken && !self.reads_layers() { wanted + 1 } else { wanted }
+    }
+
     /// A texture to render to and to read from, in shaders and, where possible, on the host.
     pub(super) fn target(
         &self,
@@ -160,13 +171,42 @@ impl Device {
         samples: u32,
         levels: u32,
     ) -> wgpu::Texture {
+        self.texture(what, wgpu::Extent3d { width, height, depth_or_array_layers: 1 }, format, samples, levels)
+    }
+
+    /// A square one with layers.
+    pub(super) fn layers(
+        &self,
+        what: &str,
+        side: u32,
+        format: TextureFormat,
+        samples: u32,
+        levels: u32,
+        layers: u32,
+    ) -> wgpu::Texture {
+        let size = wgpu::Extent3d { width: side, height: side, depth_or_array_layers: layers };
+        self.texture(what, size, format, samples, levels)
+    }
+
+    fn texture(
+        &self,
+        what: &str,
+        size: wgpu::Extent3d,
+        format: TextureFormat,
+        samples: u32,
+        levels: u32,
+    ) -> wgpu::Texture {
         let mut usage = wgpu::TextureUsages::RENDER_ATTACHMENT;
         if samples == 1 {
             usage |= wgpu::TextureUsages::TEXTURE_BINDING | wgpu::TextureUsages::COPY_SRC;
+            // Depth is not copied between textures, and not every backend could.
+            if !format.is_depth_stencil_format() {
+                usage |= wgpu::TextureUsages::COPY_DST;
+            }
         }
         self.device.create_texture(&wgpu::TextureDescriptor {
             label: Some(what),
-            size: wgpu::Extent3d { width, height, depth_or_array_layers: 1 },
+            size,
             mip_level_count: levels,
             sample_count: samples,
             dimension: wgpu::TextureDimension::D2,

@@ -62,7 +62,7 @@ pub(super) fn abilities(adapter: &wgpu::Adapter, features: wgpu::Features, forma
 
 /// The first of `names` that can be rendered (and interpolated, if `filtered`), with its position in the list.
 pub(super) fn choose(
-    names: &[String],
+    names: &[&str],
     filtered: bool,
     abilities: &dyn Fn(TextureFormat) -> Abilities,
 ) -> Option<(usize, TextureFormat)> {
@@ -120,33 +120,31 @@ pub(super) fn decode(format: TextureFormat, texel: &[u8]) -> [f32; 4] {
 mod tests {
     use super::*;
 
-    fn names() -> Vec<String> {
-        ["rg32float", "rg16unorm", "rg16float"].map(String::from).to_vec()
-    }
+    const NAMES: [&str; 3] = ["rg32float", "rg16unorm", "rg16float"];
 
     const ALL: Abilities = Abilities { renderable: true, filterable: true, multisampled: true };
 
     #[test]
     fn the_first_format_wins_where_everything_works() {
-        assert_eq!(choose(&names(), true, &|_| ALL), Some((0, TextureFormat::Rg32Float)));
+        assert_eq!(choose(&NAMES, true, &|_| ALL), Some((0, TextureFormat::Rg32Float)));
     }
 
     #[test]
     fn a_format_that_cannot_be_interpolated_is_passed_over_only_if_it_has_to_be() {
         let no_float_filter = |f| Abilities { filterable: f != TextureFormat::Rg32Float, ..ALL };
-        assert_eq!(choose(&names(), true, &no_float_filter), Some((1, TextureFormat::Rg16Unorm)));
-        assert_eq!(choose(&names(), false, &no_float_filter), Some((0, TextureFormat::Rg32Float)));
+        assert_eq!(choose(&NAMES, true, &no_float_filter), Some((1, TextureFormat::Rg16Unorm)));
+        assert_eq!(choose(&NAMES, false, &no_float_filter), Some((0, TextureFormat::Rg32Float)));
     }
 
     #[test]
     fn nothing_is_chosen_where_nothing_can_be_rendered_or_the_name_is_unknown() {
-        assert_eq!(choose(&names(), false, &|_| Abilities { renderable: false, ..ALL }), None);
-        assert_eq!(choose(&["rg12float".into()], false, &|_| ALL), None);
+        assert_eq!(choose(&NAMES, false, &|_| Abilities { renderable: false, ..ALL }), None);
+        assert_eq!(choose(&["rg12float"], false, &|_| ALL), None);
     }
 
     #[test]
     fn depth_needs_no_interpolation() {
-        let depth = ["depth32float".to_owned()];
+        let depth = ["depth32float"];
         let able = |_| Abilities { filterable: false, ..ALL };
         assert_eq!(choose(&depth, true, &able), Some((0, TextureFormat::Depth32Float)));
     }
@@ -162,7 +160,7 @@ mod tests {
 
     #[test]
     fn every_named_format_has_whole_channels() {
-        for (name, format) in NAMES {
+        for (name, format) in super::NAMES {
             assert_eq!(from_name(name), Some(*format));
             assert_eq!(name_of(*format), *name);
             assert_eq!(texel_bytes(*format) as usize % channels(*format), 0, "{name}");

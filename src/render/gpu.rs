@@ -8,6 +8,7 @@ use super::device::{Device, check};
 use super::format::{Abilities, channels, name_of, texel_bytes};
 use super::job::{ColorFormat, Frame, Job, MapPicture};
 use super::main_pass::{Main, Target, background_spec, main_spec};
+use super::map_passes::Work;
 use super::maps::{LightPlans, MapPlan};
 use super::pipeline::Pipelines;
 use super::timing::Timer;
@@ -75,12 +76,20 @@ impl Gpu {
         };
         device.scoped("the picture", || {
             let mut uploads = Uploads::new(device);
-            let mut timer = Timer::new(device, lights.maps.iter().map(|m| m.passes.len()).sum::<usize>() + 1);
+            let passes = lights.maps.iter().map(|m| m.passes.len() * m.views.len()).sum::<usize>();
+            let mut timer = Timer::new(device, passes + 1);
             let mut encoder = device.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
             let objects = objects(device, job)?;
             let mut maps = Vec::new();
             for map in &lights.maps {
-                maps.push(map.render(device, &mut encoder, &mut timer, &job.draws, &objects, &mut uploads)?);
+                maps.push(map.render(&mut Work {
+                    device,
+                    encoder: &mut encoder,
+                    timer: &mut timer,
+                    draws: &job.draws,
+                    objects: &objects,
+                    uploads: &mut uploads,
+                })?);
             }
             timer.next("main".into());
             let prepared = Main { job, target, lights: &lights, maps: &maps, objects: &objects };
@@ -114,19 +123,30 @@ impl Gpu {
         check("the map", map.bytes(), MOST_BYTES, "bytes")?;
         device.scoped("the map", || {
             let mut uploads = Uploads::new(device);
-            let mut timer = Timer::new(device, map.passes.len());
+            let mut timer = Timer::new(device, map.passes.len() * map.views.len());
             let mut encoder = device.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
             let objects = objects(device, job)?;
-            let texture = map.render(device, &mut encoder, &mut timer, &job.draws, &objects, &mut uploads)?;
+            let texture = map.render(&mut Work {
+                device,
+                encoder: &mut encoder,
+                timer: &mut timer,
+                draws: &job.draws,
+                objects: &objects,
+                uploads: &mut uploads,
+            })?;
             device.queue.submit([encoder.finish()]);
-            let pixels = read_back::texture(device, &texture)?;
+            let layers = u32::try_from(map.views.len()).unwrap_or(1);
+            let mut pixels = Vec::new();
+            for layer in 0..layers {
+                pixels.append(&mut read_back::layer(device, &texture, layer)?);
+            }
             add_new(&mut messages, uploads.messages);
             Ok(MapPicture {
-                size: (map.size, map.size),
+                size: (map.side(), map.side() * u32::try_from(map.views.len()).unwrap_or(1)),
                 pixels,
-                channels: channels(map.format),
-                format: name_of(map.format),
-                space: map.space,
+                channels: channels(map.format()),
+                format: name_of(map.format()),
+                spaces: map.views.clone(),
                 messages,
             })
         })

@@ -153,7 +153,7 @@ pub struct PassTiming {
 /// A light's map, read back.
 #[derive(Clone, Debug, PartialEq)]
 pub struct MapPicture {
-    /// Columns and rows.
+    /// Columns and rows: the views of the light lie one below the other.
     pub size: (u32, u32),
     /// As stored, rows from the top, each from the left; missing channels are 0, 0 and 1.
     pub pixels: Vec<[f32; 4]>,
@@ -161,8 +161,8 @@ pub struct MapPicture {
     pub channels: usize,
     /// Name of the format that the adapter could make.
     pub format: &'static str,
-    /// The space that it was made in.
-    pub space: LightSpace,
+    /// The views that it was made in.
+    pub spaces: Vec<LightSpace>,
     /// What was done otherwise than asked.
     pub messages: Vec<String>,
 }

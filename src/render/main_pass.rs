@@ -8,9 +8,9 @@ use super::RenderError;
 use super::blocks::{background_block, frame_block};
 use super::device::Device;
 use super::job::{Draw, Job};
-use super::light_space::LightSpace;
-use super::maps::{LightPlans, clear_depth};
-use super::pipeline::{DepthUse, Pipeline, Spec, UNIFORM, texture_type};
+use super::map_passes::{clear_depth, space_bytes};
+use super::maps::LightPlans;
+use super::pipeline::{Culling, DepthUse, Pipeline, Spec, UNIFORM, array_type, texture_type};
 use super::timing::Timer;
 use super::uploads::Uploads;
 use crate::module::{Binding, Resource};
@@ -46,12 +46,13 @@ pub(super) fn main_spec(
             }
             Resource::Sampler(_) => sampler(wgpu::SamplerBindingType::NonFiltering),
             Resource::EnvironmentSampler => sampler(wgpu::SamplerBindingType::Filtering),
-            Resource::Map { depth: true, .. } => texture_type(wgpu::TextureSampleType::Depth),
+            Resource::Map { ty, .. } if ty.starts_with("texture_depth") => array_type(wgpu::TextureSampleType::Depth),
+            Resource::Map { ty, .. } if ty.ends_with("<u32>") => array_type(wgpu::TextureSampleType::Uint),
             Resource::Map { index, .. } => {
                 let map = map_of.get(*index).map(|i| &lights.maps[*i]);
                 let map = map.ok_or_else(|| missing_map(binding))?;
-                let filterable = device.abilities(map.format).filterable;
-                texture_type(wgpu::TextureSampleType::Float { filterable })
+                let filterable = device.abilities(map.format()).filterable;
+                array_type(wgpu::TextureSampleType::Float { filterable })
             }
         };
         bindings.push((binding.group, binding.binding, ty));
@@ -65,6 +66,7 @@ pub(super) fn main_spec(
         depth: DepthUse::Nearest,
         samples: target.samples,
         mirrored: draw.object_to_world.determinant() < 0.0,
+        culling: Culling::Nothing,
     })
 }
 
@@ -87,6 +89,7 @@ pub(super) fn background_spec(target: Target) -> Spec {
         depth: DepthUse::Ignore,
         samples: target.samples,
         mirrored: false,
+        culling: Culling::Nothing,
     }
 }
 
@@ -201,14 +204,18 @@ impl Main<'_> {
                 Bound::Texture(uploads.image(path, base, *srgb, self.job.images)?)
             }
             Resource::Sampler(settings) => Bound::Sampler(uploads.sampler(settings)?),
-            Resource::Space { light } => {
-                let space = self.lights.spaces[index].get(light.as_str()).map(LightSpace::to_bytes);
-                Bound::Buffer(uniform(&space.unwrap_or_default())?)
+            Resource::Space { light, .. } => {
+                let views = self.lights.spaces[index].get(light.as_str());
+                Bound::Buffer(uniform(&views.map(|v| space_bytes(v)).unwrap_or_default())?)
             }
             Resource::Map { index: map, .. } => {
                 let texture = self.lights.map_of[index].get(*map).map(|i| &self.maps[*i]);
                 let texture = texture.ok_or_else(|| missing_map(binding))?;
-                Bound::Texture(texture.create_view(&wgpu::TextureViewDescriptor::default()))
+                let dimension = Some(wgpu::TextureViewDimension::D2Array);
+                Bound::Texture(texture.create_view(&wgpu::TextureViewDescriptor {
+                    dimension,
+                    ..wgpu::TextureViewDescriptor::default()
+                }))
             }
             Resource::Environment => Bound::Texture(uploads.environment(self.job.surroundings)?.0),
             Resource::EnvironmentSampler => Bound::Sampler(uploads.environment(self.job.surroundings)?.1),

@@ -13,6 +13,7 @@ pub mod image_file;
 mod job;
 mod light_space;
 mod main_pass;
+mod map_passes;
 mod maps;
 mod picture_levels;
 mod pipeline;
@@ -28,7 +29,7 @@ pub use job::{
     ColorFormat, Draw, Frame, ImageLoader, Job, MapPicture, PassTiming, Picture, Surroundings, SurroundingsLevel,
     Texels,
 };
-pub use light_space::{Bounds, LIGHT_SPACE_BYTES, LightSpace, light_space};
+pub use light_space::{Bounds, Eye, LIGHT_SPACE_BYTES, LightSpace, Surroundings as LightSurroundings, light_spaces};
 
 #[cfg(test)]
 mod tests;

@@ -26,6 +26,19 @@ pub(super) struct Spec {
     pub(super) samples: u32,
     /// Whether the object is mirrored: triangles then run clockwise.
     pub(super) mirrored: bool,
+    /// Which sides of triangles are left out.
+    pub(super) culling: Culling,
+}
+
+/// Sides of triangles that are not drawn.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub(super) enum Culling {
+    #[default]
+    Nothing,
+    /// The outer ones.
+    Front,
+    /// The inner ones.
+    Back,
 }
 
 /// What a pipeline does with the depth buffer.
@@ -133,6 +146,11 @@ fn build(device: &Device, what: &str, spec: &Spec) -> Result<Pipeline, RenderErr
         },
         primitive: wgpu::PrimitiveState {
             front_face: if spec.mirrored { wgpu::FrontFace::Cw } else { wgpu::FrontFace::Ccw },
+            cull_mode: match spec.culling {
+                Culling::Nothing => None,
+                Culling::Front => Some(wgpu::Face::Front),
+                Culling::Back => Some(wgpu::Face::Back),
+            },
             ..wgpu::PrimitiveState::default()
         },
         depth_stencil,
@@ -202,4 +220,9 @@ pub(super) const UNIFORM: BindingType =
 /// A two-dimensional texture, as a binding type.
 pub(super) const fn texture_type(sample_type: wgpu::TextureSampleType) -> BindingType {
     BindingType::Texture { sample_type, view_dimension: wgpu::TextureViewDimension::D2, multisampled: false }
+}
+
+/// An array of two-dimensional textures, as a binding type.
+pub(super) const fn array_type(sample_type: wgpu::TextureSampleType) -> BindingType {
+    BindingType::Texture { sample_type, view_dimension: wgpu::TextureViewDimension::D2Array, multisampled: false }
 }

@@ -22,6 +22,11 @@ pub(super) fn buffer(device: &Device, source: &wgpu::Buffer, size: u64) -> Resul
 
 /// Mip level 0 of a single-sampled texture, decoded, rows from the top.
 pub(super) fn texture(device: &Device, texture: &wgpu::Texture) -> Result<Vec<[f32; 4]>, RenderError> {
+    layer(device, texture, 0)
+}
+
+/// The same of one layer.
+pub(super) fn layer(device: &Device, texture: &wgpu::Texture, layer: u32) -> Result<Vec<[f32; 4]>, RenderError> {
     let (width, height, format) = (texture.width(), texture.height(), texture.format());
     let texel = format::texel_bytes(format);
     let row = width * texel;
@@ -49,7 +54,7 @@ pub(super) fn texture(device: &Device, texture: &wgpu::Texture) -> Result<Vec<[f
             wgpu::TexelCopyTextureInfo {
                 texture,
                 mip_level: 0,
-                origin: wgpu::Origin3d { x: 0, y: top, z: 0 },
+                origin: wgpu::Origin3d { x: 0, y: top, z: layer },
                 aspect: if is_depth { wgpu::TextureAspect::DepthOnly } else { wgpu::TextureAspect::All },
             },
             wgpu::TexelCopyBufferInfo {

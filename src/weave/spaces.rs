@@ -21,7 +21,7 @@ pub(crate) fn check(nodes: &[Option<Node>], out: &mut Vec<Diagnostic>) {
                 out.push(Diagnostic::error("ST0226", message, node.place.clone()).help(help));
                 continue;
             };
-            for input in &space.inputs {
+            for input in space.inputs_of(&lamp.definition) {
                 if !matches!(lamp.inputs.get(input), Some(Wire::Value(_))) {
                     let message = format!(
                         "`{input}` of the light `{}` must be a value, because its maps are made from it",

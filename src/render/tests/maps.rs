@@ -4,7 +4,7 @@ use super::*;
 use crate::module::{Address, SamplerSettings};
 use crate::plan::{Light, Map, Pass, PassKind, Space};
 
-const LIGHT_SPACE: &str = "struct LightSpace { world_to_light: mat4x4f, projection: vec4f, depth: vec4f }
+const LIGHT_SPACE: &str = "struct LightSpace { world_to_light: mat4x4f, projection: vec4f, depth: vec4f, source: vec4f }
 struct Object { world: mat4x4f }
 @group(0) @binding(0) var<uniform> light: LightSpace;
 @group(1) @binding(0) var<uniform> object: Object;
@@ -35,6 +35,7 @@ fn pass(name: &str, kind: PassKind, wgsl: String, targets: &[&str]) -> Pass {
         wgsl,
         targets: targets.iter().map(|t| (*t).to_owned()).collect(),
         clear: vec![1.0, 1.0],
+        reads_light: false,
     }
 }
 
@@ -72,9 +73,9 @@ fn moment_passes() -> Vec<Pass> {
 }
 
 /// A sun along -z over a ball of radius 2, with a map; `body` reads `map` and `space`.
-fn lit(passes: Vec<Pass>, declarations: &str, body: &str, depth: bool, settings: SamplerSettings) -> Compiled {
+fn lit(passes: Vec<Pass>, declarations: &str, body: &str, ty: &str, settings: SamplerSettings) -> Compiled {
     let declarations = format!(
-        "struct LightSpace {{ world_to_light: mat4x4f, projection: vec4f, depth: vec4f }}
+        "struct LightSpace {{ world_to_light: mat4x4f, projection: vec4f, depth: vec4f, source: vec4f }}
 @group(3) @binding(0) var<uniform> space: LightSpace;
 {declarations}
 fn map_place(world: vec3f) -> vec3f {{
@@ -86,8 +87,8 @@ fn map_place(world: vec3f) -> vec3f {{
         &declarations,
         body,
         vec![
-            binding(3, 0, "space", Resource::Space { light: "sun".into() }),
-            binding(3, 1, "map", Resource::Map { index: 0, depth }),
+            binding(3, 0, "space", Resource::Space { light: "sun".into(), views: 1 }),
+            binding(3, 1, "map", Resource::Map { index: 0, ty: ty.into() }),
             binding(3, 2, "map_sampler", Resource::Sampler(settings.clone())),
         ],
     );
@@ -95,10 +96,11 @@ fn map_place(world: vec3f) -> vec3f {{
         parameter("sun.direction", Shape::F32(3), 0, &[0.0, 0.0, -1.0]),
         parameter("sun.center", Shape::F32(3), 16, &[0.0, 0.0, 0.0]),
         parameter("sun.radius", Shape::F32(1), 28, &[2.0]),
+        parameter("sun.angle", Shape::F32(1), 32, &[0.0]),
     ];
-    shader.module.parameter_bytes = 32;
-    let inputs = ["sun.direction", "sun.center", "sun.radius"].map(String::from).to_vec();
-    let space = Some(Space { projection: "orthographic".into(), inputs });
+    shader.module.parameter_bytes = 48;
+    let inputs = ["sun.direction", "sun.center", "sun.radius", "sun.angle"].map(String::from).to_vec();
+    let space = Some(Space { projection: "orthographic".into(), inputs, settings: [].into(), views: 1 });
     shader.plan.lights = vec![Light { name: "sun".into(), space }];
     shader.plan.maps = vec![Map { light: "sun".into(), passes, filtered: settings.linear }];
     shader
@@ -112,11 +114,11 @@ const TRILINEAR: SamplerSettings =
 fn shadowed() -> Compiled {
     lit(
         vec![depth_pass()],
-        "@group(3) @binding(1) var map: texture_depth_2d;\n@group(3) @binding(2) var map_sampler: sampler_comparison;",
+        "@group(3) @binding(1) var map: texture_depth_2d_array;\n@group(3) @binding(2) var map_sampler: sampler_comparison;",
         "let at = map_place(in.world);
-    let lit = textureSampleCompareLevel(map, map_sampler, at.xy, at.z - 0.01);
+    let lit = textureSampleCompareLevel(map, map_sampler, at.xy, 0, at.z - 0.01);
     return vec4f(vec3f(mix(1.0, lit, object.receives)), 1.0);",
-        true,
+        "texture_depth_2d_array",
         COMPARE,
     )
 }
@@ -165,7 +167,7 @@ fn a_depth_map_can_be_read_back() {
     assert_eq!((map.size, map.channels, map.format), ((64, 64), 1, "depth32float"));
     // In light space +x is the world's -x here, so the roof is in the upper left quarter of the map.
     let at = |x: usize, y: usize| map.pixels[y * 64 + x][0];
-    let metres = |v: f32| v * (map.space.depth.y - map.space.depth.x);
+    let metres = |v: f32| v * (map.spaces[0].depth.y - map.spaces[0].depth.x);
     assert!((metres(at(48, 48)) - metres(at(16, 16)) - 1.0).abs() < 1e-3, "{} {}", at(48, 48), at(16, 16));
     let error = gpu.map(&job, "moon", 0).expect_err("no such light");
     assert!(error.to_string().contains("lights with maps: sun"), "{error}");
@@ -174,10 +176,10 @@ fn a_depth_map_can_be_read_back() {
 fn filtered() -> Compiled {
     lit(
         moment_passes(),
-        "@group(3) @binding(1) var map: texture_2d<f32>;\n@group(3) @binding(2) var map_sampler: sampler;",
+        "@group(3) @binding(1) var map: texture_2d_array<f32>;\n@group(3) @binding(2) var map_sampler: sampler;",
         "let lod = select(0.0, 6.0, in.world.x > 0.0);
-    return vec4f(textureSampleLevel(map, map_sampler, map_place(in.world).xy, lod).rg, f32(textureNumLevels(map)), 1.0);",
-        false,
+    return vec4f(textureSampleLevel(map, map_sampler, map_place(in.world).xy, 0, lod).rg, f32(textureNumLevels(map)), 1.0);",
+        "texture_2d_array<f32>",
         TRILINEAR,
     )
 }

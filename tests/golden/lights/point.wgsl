@@ -19,7 +19,10 @@ struct Object {
 struct Parameters {
     point_color: vec3f,
     point_intensity: f32,
+    point_near: f32,
     point_position: vec3f,
+    point_radius: f32,
+    point_range: f32,
 }
 
 struct PointLight {
@@ -42,7 +45,15 @@ fn inverse_square(distance: f32) -> f32 {
     return 1.0 / max(distance * distance, 1e-6);
 }
 
-fn point_light(point: vec3f, position: vec3f, color: vec3f, intensity: f32) -> PointLight {
+fn point_light(
+    point: vec3f,
+    position: vec3f,
+    color: vec3f,
+    intensity: f32,
+    near: f32,
+    range: f32,
+    radius: f32,
+) -> PointLight {
     let ray = point_light_ray(point, position);
     return PointLight(color * (intensity * inverse_square(ray.w)), ray.xyz, ray.w);
 }
@@ -73,6 +84,9 @@ fn fs_main(in: Varyings) -> @location(0) vec4f {
         parameters.point_position,
         parameters.point_color,
         parameters.point_intensity,
+        parameters.point_near,
+        parameters.point_range,
+        parameters.point_radius,
     );
     return vec4f(point.irradiance, 1.0);
 }

@@ -24,6 +24,7 @@ struct Parameters {
     spot_near: f32,
     spot_outer_angle: f32,
     spot_position: vec3f,
+    spot_radius: f32,
     spot_range: f32,
 }
 
@@ -63,6 +64,7 @@ fn spot_light(
     outer_angle: f32,
     near: f32,
     range: f32,
+    radius: f32,
 ) -> SpotLight {
     let ray = point_light_ray(point, position);
     let axis = direction * inverseSqrt(max(dot(direction, direction), 1e-20));
@@ -101,6 +103,7 @@ fn fs_main(in: Varyings) -> @location(0) vec4f {
         parameters.spot_outer_angle,
         parameters.spot_near,
         parameters.spot_range,
+        parameters.spot_radius,
     );
     return vec4f(spot.irradiance, 1.0);
 }

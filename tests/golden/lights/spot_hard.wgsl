@@ -25,6 +25,7 @@ struct Parameters {
     spot_near: f32,
     spot_outer_angle: f32,
     spot_position: vec3f,
+    spot_radius: f32,
     spot_range: f32,
 }
 
@@ -32,9 +33,14 @@ struct LightSpace {
     /// Rigid: the light at the origin, looking along +z, +y up.
     world_to_light: mat4x4f,
     /// x, y: focal factors, ndc = projection.xy * light.xy / (perspective ? light.z : 1). z: 1 perspective, 0 parallel.
+    /// w: layer of the light's maps that shows this view.
     projection: vec4f,
-    /// x: near, y: far, z: 1 / (far - near).
+    /// x: near, y: far, z: 1 / (far - near). w: distance from the eye up to which this view is used.
     depth: vec4f,
+    /// Half size of the shining surface along x and y: metres across the axis (perspective) or tangents of the angles that
+    /// it is seen under (parallel). z: 1 an ellipse, 0 a rectangle. w: texels per metre here over those of the light's
+    /// coarsest view.
+    source: vec4f,
 }
 
 struct ReceiverPlane {
@@ -59,7 +65,7 @@ struct SpotLight {
 @group(2) @binding(0) var<uniform> parameters: Parameters;
 @group(2) @binding(1) var nearest_comparison_sampler: sampler_comparison;
 @group(3) @binding(0) var<uniform> spot_space: LightSpace;
-@group(3) @binding(1) var spot_map: texture_depth_2d;
+@group(3) @binding(1) var spot_map: texture_depth_2d_array;
 
 fn point_light_ray(point: vec3f, position: vec3f) -> vec4f {
     let offset = position - point;
@@ -96,6 +102,10 @@ fn light_ray(space: LightSpace, position: vec3f) -> vec2f {
 
 fn light_map_uv(space: LightSpace, position: vec3f) -> vec2f {
     return light_ray(space, position) * space.projection.xy * vec2f(0.5, -0.5) + 0.5;
+}
+
+fn light_layer(space: LightSpace) -> i32 {
+    return i32(space.projection.w);
 }
 
 fn outside_light_map(space: LightSpace, position: vec3f, uv: vec2f) -> bool {
@@ -155,6 +165,7 @@ fn spot_light(
     outer_angle: f32,
     near: f32,
     range: f32,
+    radius: f32,
 ) -> SpotLight {
     let ray = point_light_ray(point, position);
     let axis = direction * inverseSqrt(max(dot(direction, direction), 1e-20));
@@ -165,20 +176,21 @@ fn spot_light(
 fn hard_shadow(
     point: vec3f,
     space: LightSpace,
-    map: texture_depth_2d,
+    map: texture_depth_2d_array,
     map_sampler: sampler_comparison,
     bias: f32,
     receives: f32,
 ) -> f32 {
     let normal = geometric_normal(point);
     let position = light_position(space, point);
+    let layer = light_layer(space);
     let plane = receiver_plane(space, position, normal);
     let size = vec2f(textureDimensions(map));
     let rounding = receiver_rounding(receiver_slope(space, plane) / size) + receiver_curvature(space, plane, size, 0.5);
     let margin = bias * space.depth.z + rounding;
     let center = (floor(plane.uv * size) + 0.5) / size;
     let depth = receiver_depth(space, plane, center) - margin;
-    let visibility = textureSampleCompareLevel(map, map_sampler, center, depth);
+    let visibility = textureSampleCompareLevel(map, map_sampler, center, layer, depth);
     return select(visibility, 1.0, receives < 0.5 || outside_light_map(space, position, plane.uv));
 }
 
@@ -213,6 +225,7 @@ fn fs_main(in: Varyings) -> @location(0) vec4f {
         parameters.spot_outer_angle,
         parameters.spot_near,
         parameters.spot_range,
+        parameters.spot_radius,
     );
     // shadow: Hard shadow
     let shadow_visibility = hard_shadow(

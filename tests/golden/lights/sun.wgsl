@@ -17,6 +17,7 @@ struct Object {
 }
 
 struct Parameters {
+    sun_angle: f32,
     sun_center: vec3f,
     sun_color: vec3f,
     sun_direction: vec3f,
@@ -41,6 +42,7 @@ fn directional_light(
     intensity: f32,
     center: vec3f,
     radius: f32,
+    angle: f32,
 ) -> DirectionalLight {
     // A direction of length zero counts as straight down.
     let square = dot(direction, direction);
@@ -76,6 +78,7 @@ fn fs_main(in: Varyings) -> @location(0) vec4f {
         parameters.sun_intensity,
         parameters.sun_center,
         parameters.sun_radius,
+        parameters.sun_angle,
     );
     return vec4f(sun.irradiance, 1.0);
 }

@@ -34,6 +34,7 @@ struct Parameters {
     spot_near: f32,
     spot_outer_angle: f32,
     spot_position: vec3f,
+    spot_radius: f32,
     spot_range: f32,
 }
 
@@ -41,9 +42,14 @@ struct LightSpace {
     /// Rigid: the light at the origin, looking along +z, +y up.
     world_to_light: mat4x4f,
     /// x, y: focal factors, ndc = projection.xy * light.xy / (perspective ? light.z : 1). z: 1 perspective, 0 parallel.
+    /// w: layer of the light's maps that shows this view.
     projection: vec4f,
-    /// x: near, y: far, z: 1 / (far - near).
+    /// x: near, y: far, z: 1 / (far - near). w: distance from the eye up to which this view is used.
     depth: vec4f,
+    /// Half size of the shining surface along x and y: metres across the axis (perspective) or tangents of the angles that
+    /// it is seen under (parallel). z: 1 an ellipse, 0 a rectangle. w: texels per metre here over those of the light's
+    /// coarsest view.
+    source: vec4f,
 }
 
 struct SpotLight {
@@ -59,7 +65,7 @@ struct SpotLight {
 @group(2) @binding(0) var<uniform> parameters: Parameters;
 @group(2) @binding(1) var trilinear_clamp_anisotropic16_sampler: sampler;
 @group(3) @binding(0) var<uniform> spot_space: LightSpace;
-@group(3) @binding(1) var spot_map: texture_2d<f32>;
+@group(3) @binding(1) var spot_map: texture_2d_array<f32>;
 
 fn pixel_width3(x: vec3f) -> vec3f {
     let across = dpdx(x);
@@ -157,6 +163,17 @@ fn light_ray(space: LightSpace, position: vec3f) -> vec2f {
 
 fn light_map_uv(space: LightSpace, position: vec3f) -> vec2f {
     return light_ray(space, position) * space.projection.xy * vec2f(0.5, -0.5) + 0.5;
+}
+
+fn light_layer(space: LightSpace) -> i32 {
+    return i32(space.projection.w);
+}
+
+fn light_map_change(space: LightSpace, position: vec3f, change: vec3f) -> vec2f {
+    let moved = (space.world_to_light * vec4f(change, 0.0)).xyz;
+    let perspective = (moved.xy - light_ray(space, position) * moved.z) / max(position.z, 1e-6);
+    let ray = select(moved.xy, perspective, space.projection.z > 0.5);
+    return ray * space.projection.xy * vec2f(0.5, -0.5);
 }
 
 fn outside_light_map(space: LightSpace, position: vec3f, uv: vec2f) -> bool {
@@ -261,6 +278,7 @@ fn spot_light(
     outer_angle: f32,
     near: f32,
     range: f32,
+    radius: f32,
 ) -> SpotLight {
     let ray = point_light_ray(point, position);
     let axis = direction * inverseSqrt(max(dot(direction, direction), 1e-20));
@@ -271,7 +289,7 @@ fn spot_light(
 fn variance_shadow(
     point: vec3f,
     space: LightSpace,
-    map: texture_2d<f32>,
+    map: texture_2d_array<f32>,
     map_sampler: sampler,
     minimum_variance: f32,
     bleeding_reduction: f32,
@@ -279,7 +297,9 @@ fn variance_shadow(
 ) -> f32 {
     let position = light_position(space, point);
     let uv = light_map_uv(space, position);
-    let moments = textureSampleGrad(map, map_sampler, uv, dpdx(uv), dpdy(uv)).xy;
+    let uv_dx = light_map_change(space, position, dpdx(point));
+    let uv_dy = light_map_change(space, position, dpdy(point));
+    let moments = textureSampleGrad(map, map_sampler, uv, light_layer(space), uv_dx, uv_dy).xy;
     // Beyond the far plane the map holds depths above 1, if its format can: there the receiver is lit where it is what
     // the map shows, and in the shadow of anything nearer.
     let depth = min(max(light_linear_depth(space, position.z), 0.0), max(moments.x, 1.0));
@@ -365,6 +385,7 @@ fn fs_main(in: Varyings) -> @location(0) vec4f {
         parameters.spot_outer_angle,
         parameters.spot_near,
         parameters.spot_range,
+        parameters.spot_radius,
     );
     // spot_vsm/shadow: Variance shadow
     let shadow_visibility = variance_shadow(

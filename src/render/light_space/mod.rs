@@ -1,4 +1,9 @@
-//! Where a light's maps are made: a rigid frame and a projection, from parameters and the extent of the scene.
+//! Where a light's maps are made: a rigid frame and a projection for each view, from parameters and the extent of the
+//! scene.
+
+mod bounds;
+mod eye;
+mod splits;
 
 use glam::{Mat4, Vec3, Vec4};
 
@@ -7,121 +12,79 @@ use crate::module::{Module, Parameter};
 use crate::plan::Light;
 use crate::semantic::Value;
 
-/// A light's view of the scene, laid out as the WGSL `LightSpace` (96 bytes). Lengths are metres.
+pub use bounds::Bounds;
+pub use eye::Eye;
+
+/// One view that a light has of the scene, laid out as the WGSL `LightSpace` (112 bytes). Lengths are metres.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LightSpace {
     /// Rigid: the light at the origin, looking along +z, +y up.
     pub world_to_light: Mat4,
-    /// ndc.xy = projection.xy * light.xy / (perspective ? light.z : 1); z is 1 for perspective, 0 for parallel light.
+    /// ndc.xy = projection.xy * light.xy / (perspective ? light.z : 1); z is 1 for perspective, 0 for parallel light;
+    /// w is the layer of the light's maps.
     pub projection: Vec4,
-    /// near, far, 1 / (far - near), 0.
+    /// near, far, 1 / (far - near), and the distance from the eye up to which this view is used.
     pub depth: Vec4,
+    /// Half size of the shining surface along x and y, in metres for perspective, as tangents of angles for parallel
+    /// light; z is 1 for an ellipse and 0 for a rectangle; w is texels per metre over those of the coarsest view.
+    pub source: Vec4,
 }
 
 /// Size of a [`LightSpace`] in a uniform buffer.
-pub const LIGHT_SPACE_BYTES: u64 = 96;
+pub const LIGHT_SPACE_BYTES: u64 = 112;
 
 impl LightSpace {
     /// As the shader reads it.
     pub fn to_bytes(&self) -> Vec<u8> {
         let columns = self.world_to_light.to_cols_array();
-        let rest = self.projection.to_array().into_iter().chain(self.depth.to_array());
+        let rest = [self.projection, self.depth, self.source].into_iter().flat_map(|v| v.to_array());
         columns.into_iter().chain(rest).flat_map(f32::to_le_bytes).collect()
     }
 }
 
-/// Boxes around the objects of a scene, as their corners in world space.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct Bounds {
-    corners: Vec<[Vec3; 8]>,
+/// Everything that the views of a light may depend on besides its parameters.
+#[derive(Clone, Copy, Debug)]
+pub struct Surroundings<'a> {
+    /// What there is to see.
+    pub bounds: &'a Bounds,
+    /// Who looks at it.
+    pub eye: &'a Eye,
+    /// Texels on a side of the light's smallest map.
+    pub side: u32,
 }
 
-impl Bounds {
-    /// Adds the box around `positions` (object space), placed by `object_to_world`.
-    pub fn add(&mut self, positions: &[Vec3], object_to_world: Mat4) {
-        let finite = || positions.iter().copied().filter(|p| p.is_finite());
-        let Some(low) = finite().reduce(Vec3::min) else {
-            return;
-        };
-        let high = finite().fold(low, Vec3::max);
-        let corners: [Vec3; 8] = std::array::from_fn(|i| {
-            let pick = |axis: usize| {
-                if i >> axis & 1 == 1 { high[axis] } else { low[axis] }
-            };
-            object_to_world.transform_point3(Vec3::new(pick(0), pick(1), pick(2)))
-        });
-        if corners.iter().all(|c| c.is_finite()) {
-            self.corners.push(corners);
-        }
-    }
-
-    /// A ball around everything: centre and radius. A scene without anything has the unit ball.
-    pub fn ball(&self) -> (Vec3, f32) {
-        let all = || self.corners.iter().flatten().copied();
-        let Some(low) = all().reduce(Vec3::min) else {
-            return (Vec3::ZERO, 1.0);
-        };
-        let center = (low + all().fold(low, Vec3::max)) * 0.5;
-        (center, all().map(|c| c.distance(center)).fold(0.0, f32::max))
-    }
-
-    /// Least and greatest z, in a frame, of what lies in the column |x|, |y| <= `radius` of that frame. Both are 0 where
-    /// the column is empty.
-    fn depth_in_column(&self, world_to_frame: Mat4, radius: f32) -> (f32, f32) {
-        let mut range: Option<(f32, f32)> = None;
-        for corners in &self.corners {
-            let corners = corners.map(|c| world_to_frame.transform_point3(c));
-            for face in FACES {
-                for point in clip_to_column(face.iter().map(|i| corners[*i]).collect(), radius) {
-                    let (low, high) = range.unwrap_or((point.z, point.z));
-                    range = Some((low.min(point.z), high.max(point.z)));
-                }
-            }
-        }
-        range.unwrap_or_default()
-    }
-}
-
-/// The faces of a box by the numbers of their corners, around each face.
-const FACES: [[usize; 4]; 6] = [[0, 2, 6, 4], [1, 3, 7, 5], [0, 1, 5, 4], [2, 3, 7, 6], [0, 1, 3, 2], [4, 5, 7, 6]];
-
-/// The part of a convex polygon with |x|, |y| <= `radius` (Sutherland and Hodgman 1974).
-fn clip_to_column(mut polygon: Vec<Vec3>, radius: f32) -> Vec<Vec3> {
-    for side in [Vec3::X, Vec3::NEG_X, Vec3::Y, Vec3::NEG_Y] {
-        let inside = |p: Vec3| radius - p.dot(side);
-        let mut kept = Vec::with_capacity(polygon.len() + 1);
-        for (i, &from) in polygon.iter().enumerate() {
-            let to = polygon[(i + 1) % polygon.len()];
-            let (a, b) = (inside(from), inside(to));
-            if a >= 0.0 {
-                kept.push(from);
-            }
-            if (a >= 0.0) != (b >= 0.0) {
-                kept.push(from.lerp(to, a / (a - b)));
-            }
-        }
-        polygon = kept;
-    }
-    polygon
-}
-
-/// The space of a light with a projection, from the values of its parameters.
-pub fn light_space(
+/// The views of a light with a projection, in the order of the layers of its maps, from the values of its parameters.
+pub fn light_spaces(
     light: &Light,
     module: &Module,
     value_of: &dyn Fn(&Parameter) -> Option<Value>,
-    bounds: &Bounds,
-) -> Result<LightSpace, RenderError> {
+    around: Surroundings<'_>,
+) -> Result<Vec<LightSpace>, RenderError> {
     let space = light
         .space
         .as_ref()
         .ok_or_else(|| RenderError::Job(format!("light `{}` has maps but no projection", light.name)))?;
     let inputs = Inputs { paths: &space.inputs, module, value_of };
-    match space.projection.as_str() {
-        "perspective" => perspective(&inputs),
-        "orthographic" => orthographic(&inputs, bounds),
-        other => Err(RenderError::Job(format!("light `{}`: `{other}` is not a projection", light.name))),
+    let mut views = match space.projection.as_str() {
+        "perspective" => {
+            let radius = inputs.length(5)?;
+            vec![LightSpace { source: Vec4::new(radius, radius, 1.0, 1.0), ..perspective(&inputs)? }]
+        }
+        "rectangle" => {
+            let (width, height) = (inputs.length(5)?, inputs.length(6)?);
+            vec![LightSpace { source: Vec4::new(width / 2.0, height / 2.0, 0.0, 1.0), ..perspective(&inputs)? }]
+        }
+        "cube" => cube(&inputs)?,
+        "orthographic" => match space.views {
+            0 | 1 => vec![orthographic(&inputs, around.bounds)?],
+            _ => splits::views(&inputs, space, around)?,
+        },
+        other => return Err(RenderError::Job(format!("light `{}`: `{other}` is not a projection", light.name))),
+    };
+    for (layer, view) in (0_u8..).zip(&mut views) {
+        view.projection.w = f32::from(layer);
     }
+    Ok(views)
 }
 
 /// The parameters that define a projection, in the order of [`crate::plan::Space`].
@@ -165,6 +128,12 @@ impl Inputs<'_> {
         self.numbers::<3>(index).map(|v| Vec3::from_array(v.map(narrow)))
     }
 
+    /// A length or an angle, not negative.
+    fn length(&self, index: usize) -> Result<f32, RenderError> {
+        let length = self.number(index)?;
+        if length >= 0.0 { Ok(length) } else { Err(self.refuse(index, "a size cannot be negative")) }
+    }
+
     fn axis(&self, index: usize) -> Result<Vec3, RenderError> {
         self.vector(index)?.try_normalize().ok_or_else(|| self.refuse(index, "a direction cannot have length zero"))
     }
@@ -192,32 +161,62 @@ fn perspective(inputs: &Inputs<'_>) -> Result<LightSpace, RenderError> {
     if !OUTER_ANGLE.contains(&half_angle) {
         return Err(inputs.refuse(2, "the cone of a light with maps must be between 0 and 89 degrees"));
     }
-    if near <= 0.0 {
-        return Err(inputs.refuse(3, "maps must begin in front of the light"));
-    }
-    if far <= near {
-        return Err(inputs.refuse(4, "maps must end behind where they begin"));
-    }
+    check_range(inputs, (3, near), (4, far))?;
     let focal = half_angle.tan().recip();
     Ok(LightSpace {
         world_to_light: look_along(position, axis),
         projection: Vec4::new(focal, focal, 1.0, 0.0),
         depth: depth_range(near, far),
+        source: POINT,
     })
+}
+
+fn check_range(inputs: &Inputs<'_>, near: (usize, f32), far: (usize, f32)) -> Result<(), RenderError> {
+    if near.1 <= 0.0 {
+        return Err(inputs.refuse(near.0, "maps must begin in front of the light"));
+    }
+    if far.1 <= near.1 {
+        return Err(inputs.refuse(far.0, "maps must end behind where they begin"));
+    }
+    Ok(())
+}
+
+/// Half width of a face of the cube at distance 1. What is beyond 1 belongs to the neighbours and is there for filters
+/// that reach across the edge: 7.5 texels of 256 to each side.
+const FACE: f32 = 1.0 + 1.0 / 16.0;
+
+/// Six views along the axes of the world: +x, -x, +y, -y, +z, -z.
+fn cube(inputs: &Inputs<'_>) -> Result<Vec<LightSpace>, RenderError> {
+    let position = inputs.vector(0)?;
+    let (near, far) = (inputs.number(1)?, inputs.number(2)?);
+    check_range(inputs, (1, near), (2, far))?;
+    let radius = inputs.length(3)?;
+    let axes = [Vec3::X, Vec3::NEG_X, Vec3::Y, Vec3::NEG_Y, Vec3::Z, Vec3::NEG_Z];
+    let face = |axis| LightSpace {
+        world_to_light: look_along(position, axis),
+        projection: Vec4::new(FACE.recip(), FACE.recip(), 1.0, 0.0),
+        depth: depth_range(near, far),
+        source: Vec4::new(radius, radius, 1.0, 1.0),
+    };
+    Ok(axes.map(face).to_vec())
+}
+
+/// The source of a light that is a point, seen by its only view.
+const POINT: Vec4 = Vec4::new(0.0, 0.0, 1.0, 1.0);
+
+/// The source of parallel light from a disc, from the angle between its middle and its rim.
+fn distant_source(inputs: &Inputs<'_>, index: usize) -> Result<Vec4, RenderError> {
+    let angle = inputs.length(index)?;
+    if angle >= 1.5 {
+        return Err(inputs.refuse(index, "the light must come from less than half of the sky"));
+    }
+    let half = angle.tan();
+    Ok(Vec4::new(half, half, 1.0, 1.0))
 }
 
 fn orthographic(inputs: &Inputs<'_>, bounds: &Bounds) -> Result<LightSpace, RenderError> {
     let axis = inputs.axis(0)?;
-    let mut center = inputs.vector(1)?;
-    let mut radius = inputs.number(2)?;
-    if radius < 0.0 {
-        return Err(inputs.refuse(2, "a radius cannot be negative"));
-    }
-    if radius == 0.0 {
-        (center, radius) = bounds.ball();
-    }
-    // A scene of one point still has an extent to divide by.
-    let radius = radius.max(1e-6);
+    let (center, radius) = covered_ball(inputs, bounds)?;
     let (low, high) = bounds.depth_in_column(look_along(center, axis), radius);
     // A margin keeps surfaces at both ends inside, whatever rounding does to them.
     let margin = (high - low).max(radius) * 1e-3;
@@ -227,11 +226,20 @@ fn orthographic(inputs: &Inputs<'_>, bounds: &Bounds) -> Result<LightSpace, Rend
         world_to_light: look_along(origin, axis),
         projection: Vec4::new(focal, focal, 0.0, 0.0),
         depth: depth_range(0.0, high - low + 2.0 * margin),
+        source: distant_source(inputs, 3)?,
     })
 }
 
+/// Centre and radius of what the maps of parallel light cover: as given, or everything.
+fn covered_ball(inputs: &Inputs<'_>, bounds: &Bounds) -> Result<(Vec3, f32), RenderError> {
+    let given = (inputs.vector(1)?, inputs.length(2)?);
+    let (center, radius) = if given.1 == 0.0 { bounds.ball() } else { given };
+    // A scene of one point still has an extent to divide by.
+    Ok((center, radius.max(1e-6)))
+}
+
 fn depth_range(near: f32, far: f32) -> Vec4 {
-    Vec4::new(near, far, (far - near).recip(), 0.0)
+    Vec4::new(near, far, (far - near).recip(), f32::MAX)
 }
 
 /// World to a frame at `origin` whose +z is the unit vector `axis` and whose +y is as near to world +y as can be.
@@ -250,5 +258,4 @@ fn look_along(origin: Vec3, axis: Vec3) -> Mat4 {
 }
 
 #[cfg(test)]
-#[path = "light_space_tests.rs"]
 mod tests;

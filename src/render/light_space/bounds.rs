@@ -1,0 +1,78 @@
+//! How far a scene reaches, as seen from a light.
+
+use glam::{Mat4, Vec3};
+
+/// Boxes around the objects of a scene, as their corners in world space.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Bounds {
+    pub(super) corners: Vec<[Vec3; 8]>,
+}
+
+impl Bounds {
+    /// Adds the box around `positions` (object space), placed by `object_to_world`.
+    pub fn add(&mut self, positions: &[Vec3], object_to_world: Mat4) {
+        let finite = || positions.iter().copied().filter(|p| p.is_finite());
+        let Some(low) = finite().reduce(Vec3::min) else {
+            return;
+        };
+        let high = finite().fold(low, Vec3::max);
+        let corners: [Vec3; 8] = std::array::from_fn(|i| {
+            let pick = |axis: usize| {
+                if i >> axis & 1 == 1 { high[axis] } else { low[axis] }
+            };
+            object_to_world.transform_point3(Vec3::new(pick(0), pick(1), pick(2)))
+        });
+        if corners.iter().all(|c| c.is_finite()) {
+            self.corners.push(corners);
+        }
+    }
+
+    /// A ball around everything: centre and radius. A scene without anything has the unit ball.
+    pub fn ball(&self) -> (Vec3, f32) {
+        let all = || self.corners.iter().flatten().copied();
+        let Some(low) = all().reduce(Vec3::min) else {
+            return (Vec3::ZERO, 1.0);
+        };
+        let center = (low + all().fold(low, Vec3::max)) * 0.5;
+        (center, all().map(|c| c.distance(center)).fold(0.0, f32::max))
+    }
+
+    /// Least and greatest z, in a frame, of what lies in the column |x|, |y| <= `radius` of that frame. Both are 0 where
+    /// the column is empty.
+    pub(super) fn depth_in_column(&self, world_to_frame: Mat4, radius: f32) -> (f32, f32) {
+        let mut range: Option<(f32, f32)> = None;
+        for corners in &self.corners {
+            let corners = corners.map(|c| world_to_frame.transform_point3(c));
+            for face in FACES {
+                for point in clip_to_column(face.iter().map(|i| corners[*i]).collect(), radius) {
+                    let (low, high) = range.unwrap_or((point.z, point.z));
+                    range = Some((low.min(point.z), high.max(point.z)));
+                }
+            }
+        }
+        range.unwrap_or_default()
+    }
+}
+
+/// The faces of a box by the numbers of their corners, around each face.
+const FACES: [[usize; 4]; 6] = [[0, 2, 6, 4], [1, 3, 7, 5], [0, 1, 5, 4], [2, 3, 7, 6], [0, 1, 3, 2], [4, 5, 7, 6]];
+
+/// The part of a convex polygon with |x|, |y| <= `radius` (Sutherland and Hodgman 1974).
+fn clip_to_column(mut polygon: Vec<Vec3>, radius: f32) -> Vec<Vec3> {
+    for side in [Vec3::X, Vec3::NEG_X, Vec3::Y, Vec3::NEG_Y] {
+        let inside = |p: Vec3| radius - p.dot(side);
+        let mut kept = Vec::with_capacity(polygon.len() + 1);
+        for (i, &from) in polygon.iter().enumerate() {
+            let to = polygon[(i + 1) % polygon.len()];
+            let (a, b) = (inside(from), inside(to));
+            if a >= 0.0 {
+                kept.push(from);
+            }
+            if (a >= 0.0) != (b >= 0.0) {
+                kept.push(from.lerp(to, a / (a - b)));
+            }
+        }
+        polygon = kept;
+    }
+    polygon
+}
