@@ -35,6 +35,9 @@ pub struct Options {
     pub output: Output,
     /// Write parameters as constants instead of uniform members.
     pub bake: bool,
+    /// Leave out every shadow, with all that it reads: for where nothing casts, or nothing receives. The picture is the
+    /// same, bit by bit.
+    pub unshadowed: bool,
 }
 
 /// A module and what must be rendered before it can run.
@@ -74,13 +77,13 @@ fn compile_unlimited(
 ) -> (Option<Compiled>, Vec<Diagnostic>) {
     let (woven, mut diagnostics) = weave(graphs, catalog, &options.output);
     let Some(woven) = woven else { return (None, diagnostics) };
-    let mut program = build(&woven, if options.bake { Bake::All } else { Bake::Nothing });
+    let mut program = build(&woven, if options.bake { Bake::All } else { Bake::Nothing }, options.unshadowed);
     // What no device need take as uniforms becomes constants, the nodes' own defaults first.
     for (bake, which) in [(Bake::Defaults, "values that no one changed"), (Bake::All, "all values")] {
         let (count, bytes) = parameter_block(&program);
         if bytes > MAX_PARAMETER_BYTES {
             diagnostics.push(too_many_parameters(count, bytes, which, graphs));
-            program = build(&woven, bake);
+            program = build(&woven, bake, options.unshadowed);
         }
     }
     let (module, plan, mut found) = emit(&program, catalog, &title(graphs));

@@ -120,7 +120,11 @@ const WEAVE: &[(&str, &str, &str)] = &[
         "A picture shows colours, numbers and vectors. End the graph in a surface.",
     ),
     ("ST0225", "There is nothing to see.", "The smallest graph has one node, such as `lambert`."),
-    ("ST0226", "This light cannot carry maps, which the shadow needs.", "Spot and directional lights can."),
+    (
+        "ST0226",
+        "This light cannot carry maps, which the shadow needs.",
+        "Spot, point and directional lights can; a light of your own can with a `space:` line.",
+    ),
     (
         "ST0227",
         "What a light's map depends on is not a parameter.",

@@ -13,6 +13,8 @@ mod laws;
 mod layers;
 mod matrix;
 #[cfg(feature = "render")]
+mod minimal;
+#[cfg(feature = "render")]
 mod stage;
 mod support;
 mod tint;

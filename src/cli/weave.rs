@@ -92,7 +92,16 @@ impl Weaver<'_> {
 
     /// Weaves without reporting.
     pub(super) fn try_weave(&self, graphs: &[NamedGraph], objects: Vec<String>) -> (Option<Shader>, Vec<Diagnostic>) {
-        let (compiled, mut found) = compile(graphs, self.catalog, &self.options);
+        self.try_weave_as(graphs, objects, &self.options)
+    }
+
+    fn try_weave_as(
+        &self,
+        graphs: &[NamedGraph],
+        objects: Vec<String>,
+        options: &Options,
+    ) -> (Option<Shader>, Vec<Diagnostic>) {
+        let (compiled, mut found) = compile(graphs, self.catalog, options);
         let Some(compiled) = compiled.filter(|_| !has_errors(&found)) else {
             return (None, found);
         };
@@ -155,6 +164,7 @@ impl Weaver<'_> {
         };
         // The surfaces that could be read may have mistakes of their own.
         surfaces.retain(|(_, surface, _)| !surface.is_empty());
+        let casts = scene.objects.iter().any(|o| o.casts);
         let mut shaders = Vec::new();
         let mut shown: Vec<Diagnostic> = Vec::new();
         let mut unused = self.set.to_vec();
@@ -169,7 +179,9 @@ impl Weaver<'_> {
                 .cloned()
                 .collect();
             unused.retain(|a| !here.contains(a));
-            let (shader, found) = self.try_weave(&graphs, objects);
+            let receives = scene.objects.iter().any(|o| o.receives && objects.contains(&o.name));
+            let options = Options { unshadowed: !(casts && receives), ..self.options.clone() };
+            let (shader, found) = self.try_weave_as(&graphs, objects, &options);
             // A fault of a light shows with every surface, but is one fault.
             let new: Vec<Diagnostic> = found.into_iter().filter(|d| !shown.contains(d)).collect();
             self.context.report(&new);

@@ -62,7 +62,13 @@ pub(crate) fn bind(
             }
             _ => {
                 let views = info.definition.header.space.as_ref().map_or(1, |s| s.views(&info.definition));
-                add(3, &format!("{}_space", info.short), resource, Bound::Space { light: info.id.clone(), views }, names);
+                add(
+                    3,
+                    &format!("{}_space", info.short),
+                    resource,
+                    Bound::Space { light: info.id.clone(), views },
+                    names,
+                );
             }
         }
     }

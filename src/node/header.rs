@@ -3,8 +3,8 @@
 use std::sync::Arc;
 
 use super::definition::{Header, MapSpec, OptionSpec, SamplerSpec, SpaceSpec, TextureSpec};
-use super::report::{Piece, Report, lines};
 use super::projection::{PROJECTIONS, Projection};
+use super::report::{Piece, Report, lines};
 use super::settings;
 use super::tokens::is_identifier;
 use crate::diagnostic::{Diagnostic, SourceText, did_you_mean};
@@ -177,11 +177,7 @@ impl<'a> Reader<'a> {
         let inputs = arguments.map_or(Vec::new(), |a| a.split(','));
         if inputs.len() != projection.needed && inputs.len() != projection.inputs.len() {
             self.report
-                .error(
-                    "ST0102",
-                    call.range(),
-                    format!("{} takes {} inputs", projection.signature(), projection.needed),
-                )
+                .error("ST0102", call.range(), format!("{} takes {} inputs", projection.signature(), projection.needed))
                 .help("name an input of this node for each, in this order");
         }
         for input in &inputs {

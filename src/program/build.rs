@@ -9,8 +9,8 @@ use crate::weave::{Root, Wire, Woven, is_light, is_lit, is_shadow, is_surface};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// The program of a woven tree.
-pub fn build(woven: &Woven, bake: Bake) -> Program {
-    let mut program = Program { bake, ..Program::default() };
+pub fn build(woven: &Woven, bake: Bake, unshadowed: bool) -> Program {
+    let mut program = Program { bake, unshadowed, ..Program::default() };
     let mut count: BTreeMap<&str, u32> = BTreeMap::new();
     let last = |id: &'_ str| id.rfind('/').map_or(0, |at| at + 1);
     for node in &woven.nodes {
@@ -45,6 +45,12 @@ fn evaluate(program: &mut Program, woven: &Woven, worth: &[Worth], index: usize)
     let mut result = Worth::default();
     if is_light(definition) {
         result.plain = program.call(&at(None), false);
+        return result;
+    }
+    if program.unshadowed && is_shadow(definition) {
+        let scalar = definition.main.outputs[0].ty.shape.width() == Some(1);
+        let one = program.add(Op::Literal(if scalar { "1.0" } else { "vec3f(1.0)" }.into()), Vec::new(), "lit", None);
+        result.lit.extend(node.lights.keys().map(|light| (*light, vec![one])));
         return result;
     }
     let mut lights: BTreeSet<usize> = node.lights.keys().copied().collect();
@@ -117,6 +123,7 @@ fn root(program: &mut Program, woven: &Woven, worth: &[Worth]) -> Option<Id> {
         }
         Root::Visibility { light, shadows } => {
             let mut terms = Vec::new();
+            let shadows = if program.unshadowed { &[][..] } else { &shadows[..] };
             for shadow in shadows {
                 let scalar = woven.nodes[*shadow].definition.main.outputs[0].ty.shape.width() == Some(1);
                 if let Some(visibility) = worth[*shadow].lit.get(light).and_then(|o| o.first()) {

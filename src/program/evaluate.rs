@@ -119,9 +119,7 @@ impl Program {
             }
             Wire::Value(value) => Some(self.parameter(&node.definition, context.index, port, value)),
             Wire::Source(name) => Some(self.provided(context, name, port)),
-            Wire::Space => {
-                Some(self.view_of_light(context.light?, origin))
-            }
+            Wire::Space => Some(self.view_of_light(context.light?, origin)),
             Wire::Map => {
                 let index = self.map(&node.definition, context.index, context.light?, port);
                 let name = format!("{}_map", self.nodes[context.light?].short);
@@ -215,7 +213,7 @@ impl Program {
         let output = definition.main.outputs.iter().find(|o| o.ty.meaning.quantity == Quantity::Irradiance)?;
         let here = Context { light: Some(light), ..*context };
         let mut factors = vec![here.output(light, &output.name)?];
-        let mut shadows = shadows.to_vec();
+        let mut shadows = if self.unshadowed { Vec::new() } else { shadows.to_vec() };
         shadows.sort_by(|a, b| self.nodes[*a].id.cmp(&self.nodes[*b].id));
         for shadow in shadows {
             factors.extend(here.worth[shadow].lit.get(&light).and_then(|o| o.first()));

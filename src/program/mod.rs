@@ -199,6 +199,7 @@ pub struct Program {
     inline_texts: HashMap<usize, Rc<str>>,
     conversions: Conversions,
     bake: Bake,
+    unshadowed: bool,
 }
 
 /// Which values are written as constants instead of parameters. What the spaces of maps are made from never is.

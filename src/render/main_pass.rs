@@ -212,10 +212,12 @@ impl Main<'_> {
                 let texture = self.lights.map_of[index].get(*map).map(|i| &self.maps[*i]);
                 let texture = texture.ok_or_else(|| missing_map(binding))?;
                 let dimension = Some(wgpu::TextureViewDimension::D2Array);
-                Bound::Texture(texture.create_view(&wgpu::TextureViewDescriptor {
-                    dimension,
-                    ..wgpu::TextureViewDescriptor::default()
-                }))
+                Bound::Texture(
+                    texture.create_view(&wgpu::TextureViewDescriptor {
+                        dimension,
+                        ..wgpu::TextureViewDescriptor::default()
+                    }),
+                )
             }
             Resource::Environment => Bound::Texture(uploads.environment(self.job.surroundings)?.0),
             Resource::EnvironmentSampler => Bound::Sampler(uploads.environment(self.job.surroundings)?.1),

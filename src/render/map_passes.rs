@@ -59,13 +59,12 @@ impl MapPlan<'_> {
     pub(super) fn render(&self, work: &mut Work<'_, '_>) -> Result<wgpu::Texture, RenderError> {
         let device = work.device;
         let layers = device.array_layers(u32::try_from(self.views.len()).unwrap_or(1));
-        let make = |step: &Step, layers, levels| {
-            device.layers(self.light, step.side, step.format, 1, levels, layers)
-        };
+        let make = |step: &Step, layers, levels| device.layers(self.light, step.side, step.format, 1, levels, layers);
         let last = self.passes.iter().rposition(|p| p.kind != PassKind::Mip).unwrap_or(0);
         let result = make(&self.steps[last], layers, self.levels());
         // OpenGL cannot read one layer of an array as a picture: there the passes run beside it.
-        let beside = (!device.reads_layers() && self.passes.len() > 1).then(|| make(&self.steps[last], 1, self.levels()));
+        let beside =
+            (!device.reads_layers() && self.passes.len() > 1).then(|| make(&self.steps[last], 1, self.levels()));
         let mut scratch: Vec<wgpu::Texture> = Vec::new();
         let depth = self.depth_beside(device);
         for (layer, view) in (0..).zip(&self.views) {
@@ -91,9 +90,8 @@ impl MapPlan<'_> {
                     finished(0)
                 } else {
                     let taken = source.as_ref().map(|p| &p.texture);
-                    let fits = |t: &&wgpu::Texture| {
-                        t.format() == step.format && t.width() == step.side && Some(*t) != taken
-                    };
+                    let fits =
+                        |t: &&wgpu::Texture| t.format() == step.format && t.width() == step.side && Some(*t) != taken;
                     let texture = scratch.iter().find(fits).cloned().unwrap_or_else(|| {
                         scratch.push(make(step, 1, 1));
                         scratch[scratch.len() - 1].clone()
@@ -114,7 +112,11 @@ impl MapPlan<'_> {
             }
             if let Some(texture) = &beside {
                 for level in 0..self.levels() {
-                    copy(work.encoder, &Place { texture: texture.clone(), layer: 0, level }, &Place { texture: result.clone(), layer, level });
+                    copy(
+                        work.encoder,
+                        &Place { texture: texture.clone(), layer: 0, level },
+                        &Place { texture: result.clone(), layer, level },
+                    );
                 }
             }
         }
@@ -143,7 +145,8 @@ impl MapPlan<'_> {
         let many = (samples > 1)
             .then(|| device.layers(self.light, self.steps[0].side, self.steps[0].format, samples, 1, 1))
             .map(|t| t.create_view(&wgpu::TextureViewDescriptor::default()));
-        let depth_view = beside.map_or_else(|| target.clone(), |t| t.create_view(&wgpu::TextureViewDescriptor::default()));
+        let depth_view =
+            beside.map_or_else(|| target.clone(), |t| t.create_view(&wgpu::TextureViewDescriptor::default()));
         let color = beside.is_some().then(|| wgpu::RenderPassColorAttachment {
             view: many.as_ref().unwrap_or(target),
             depth_slice: None,
@@ -162,7 +165,8 @@ impl MapPlan<'_> {
             timestamp_writes: work.timer.writes(true, true),
             ..wgpu::RenderPassDescriptor::default()
         });
-        for (draw, object) in work.draws.iter().zip(work.objects).filter(|(d, _)| d.casts && !d.mesh.indices.is_empty()) {
+        for (draw, object) in work.draws.iter().zip(work.objects).filter(|(d, _)| d.casts && !d.mesh.indices.is_empty())
+        {
             let resources = [(0, 0, space.as_entire_binding()), (1, 0, object.as_entire_binding())];
             pipeline.set(&mut encoded, &pipeline.bind(device, &resources));
             let positions = work.uploads.attribute(draw.mesh, Attribute::Position.location())?;

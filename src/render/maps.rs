@@ -215,8 +215,8 @@ impl MapPlan<'_> {
     /// Samples per texel of the pass that draws, where its format has as many.
     pub(super) fn samples(&self, device: &Device) -> u32 {
         let wanted = self.passes[0].number("samples").unwrap_or(1);
-        let able = self.steps[0].format != TextureFormat::Depth32Float
-            && device.abilities(self.steps[0].format).multisampled;
+        let able =
+            self.steps[0].format != TextureFormat::Depth32Float && device.abilities(self.steps[0].format).multisampled;
         if wanted == 4 && able { 4 } else { 1 }
     }
 

@@ -17,7 +17,7 @@ pub(crate) fn check(nodes: &[Option<Node>], out: &mut Vec<Diagnostic>) {
             let Some(lamp) = nodes[light].as_ref().filter(|_| checked.insert(light)) else { continue };
             let Some(space) = &lamp.definition.header.space else {
                 let message = format!("`{}` ({}) cannot carry the shadow `{}`", lamp.id, lamp.definition.kind, node.id);
-                let help = "maps need a light with a `space:` line, such as `spot_light` or `directional_light`";
+                let help = "maps need a light with a `space:` line, such as `spot_light`, `point_light` or `directional_light`";
                 out.push(Diagnostic::error("ST0226", message, node.place.clone()).help(help));
                 continue;
             };

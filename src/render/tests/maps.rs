@@ -4,7 +4,8 @@ use super::*;
 use crate::module::{Address, SamplerSettings};
 use crate::plan::{Light, Map, Pass, PassKind, Space};
 
-const LIGHT_SPACE: &str = "struct LightSpace { world_to_light: mat4x4f, projection: vec4f, depth: vec4f, source: vec4f }
+const LIGHT_SPACE: &str =
+    "struct LightSpace { world_to_light: mat4x4f, projection: vec4f, depth: vec4f, source: vec4f }
 struct Object { world: mat4x4f }
 @group(0) @binding(0) var<uniform> light: LightSpace;
 @group(1) @binding(0) var<uniform> object: Object;

@@ -1,0 +1,177 @@
+// Sun, variance shadow in four splits
+
+struct Frame {
+    world_to_clip: mat4x4f,
+    world_to_view: mat4x4f,
+    camera_position: vec3f,
+    time: f32,
+    camera_forward: vec3f,
+    environment_levels: f32,
+    environment_irradiance: array<vec4f, 9>,
+}
+
+struct Object {
+    object_to_world: mat4x4f,
+    world_to_object: mat4x4f,
+    receives: f32,
+}
+
+struct Parameters {
+    shadow_bleeding_reduction: f32,
+    shadow_minimum_variance: f32,
+    sun_angle: f32,
+    sun_center: vec3f,
+    sun_color: vec3f,
+    sun_direction: vec3f,
+    sun_intensity: f32,
+    sun_radius: f32,
+    sun_split_balance: f32,
+    sun_split_reach: f32,
+}
+
+struct LightSpace {
+    /// Rigid: the light at the origin, looking along +z, +y up.
+    world_to_light: mat4x4f,
+    /// x, y: focal factors, ndc = projection.xy * light.xy / (perspective ? light.z : 1). z: 1 perspective, 0 parallel.
+    /// w: layer of the light's maps that shows this view.
+    projection: vec4f,
+    /// x: near, y: far, z: 1 / (far - near). w: distance from the eye up to which this view is used.
+    depth: vec4f,
+    /// Half size of the shining surface along x and y: metres across the axis (perspective) or tangents of the angles that
+    /// it is seen under (parallel). z: 1 an ellipse, 0 a rectangle. w: texels per metre here over those of the light's
+    /// coarsest view.
+    source: vec4f,
+}
+
+struct DirectionalLight {
+    irradiance: vec3f,
+    direction: vec3f,
+    distance: f32,
+}
+
+@group(0) @binding(0) var<uniform> frame: Frame;
+@group(1) @binding(0) var<uniform> object: Object;
+@group(2) @binding(0) var<uniform> parameters: Parameters;
+@group(2) @binding(1) var trilinear_clamp_anisotropic16_sampler: sampler;
+@group(3) @binding(0) var<uniform> sun_space: array<LightSpace, 4>;
+@group(3) @binding(1) var sun_map: texture_2d_array<f32>;
+
+fn light_position(space: LightSpace, point: vec3f) -> vec3f {
+    return (space.world_to_light * vec4f(point, 1.0)).xyz;
+}
+
+fn light_linear_depth(space: LightSpace, distance: f32) -> f32 {
+    return (distance - space.depth.x) * space.depth.z;
+}
+
+fn light_ray(space: LightSpace, position: vec3f) -> vec2f {
+    return position.xy / select(1.0, max(position.z, 1e-6), space.projection.z > 0.5);
+}
+
+fn light_map_uv(space: LightSpace, position: vec3f) -> vec2f {
+    return light_ray(space, position) * space.projection.xy * vec2f(0.5, -0.5) + 0.5;
+}
+
+fn light_layer(space: LightSpace) -> i32 {
+    return i32(space.projection.w);
+}
+
+fn light_map_change(space: LightSpace, position: vec3f, change: vec3f) -> vec2f {
+    let moved = (space.world_to_light * vec4f(change, 0.0)).xyz;
+    let perspective = (moved.xy - light_ray(space, position) * moved.z) / max(position.z, 1e-6);
+    let ray = select(moved.xy, perspective, space.projection.z > 0.5);
+    return ray * space.projection.xy * vec2f(0.5, -0.5);
+}
+
+fn outside_light_map(space: LightSpace, position: vec3f, uv: vec2f) -> bool {
+    return position.z < space.depth.x || any(uv < vec2f(0.0)) || any(uv > vec2f(1.0));
+}
+
+fn directional_light(
+    point: vec3f,
+    direction: vec3f,
+    color: vec3f,
+    intensity: f32,
+    center: vec3f,
+    radius: f32,
+    angle: f32,
+    split_balance: f32,
+    split_reach: f32,
+) -> DirectionalLight {
+    // A direction of length zero counts as straight down.
+    let square = dot(direction, direction);
+    let axis = select(direction * inverseSqrt(max(square, 1e-20)), vec3f(0.0, -1.0, 0.0), square < 1e-20);
+    return DirectionalLight(color * intensity, -axis, max(dot(point - center, axis) + radius, 0.0));
+}
+
+fn variance_shadow(
+    point: vec3f,
+    space: LightSpace,
+    map: texture_2d_array<f32>,
+    map_sampler: sampler,
+    minimum_variance: f32,
+    bleeding_reduction: f32,
+    receives: f32,
+) -> f32 {
+    let position = light_position(space, point);
+    let uv = light_map_uv(space, position);
+    let uv_dx = light_map_change(space, position, dpdx(point));
+    let uv_dy = light_map_change(space, position, dpdy(point));
+    let moments = textureSampleGrad(map, map_sampler, uv, light_layer(space), uv_dx, uv_dy).xy;
+    // Beyond the far plane the map holds depths above 1, if its format can: there the receiver is lit where it is what
+    // the map shows, and in the shadow of anything nearer.
+    let depth = min(max(light_linear_depth(space, position.z), 0.0), max(moments.x, 1.0));
+    // 1e-12 keeps 0 / 0 out where both the variance and the difference vanish.
+    let variance = max(moments.y - moments.x * moments.x, max(minimum_variance, 1e-12));
+    let behind = max(depth - moments.x, 0.0);
+    let bound = variance / (variance + behind * behind);
+    let least = clamp(bleeding_reduction, 0.0, 0.99);
+    let visibility = saturate((bound - least) / (1.0 - least));
+    return select(visibility, 1.0, receives < 0.5 || outside_light_map(space, position, uv));
+}
+
+struct Vertex {
+    @location(0) position: vec3f,
+}
+
+struct Varyings {
+    @builtin(position) clip_position: vec4f,
+    @location(0) position_world: vec3f,
+}
+
+@vertex
+fn vs_main(in: Vertex) -> Varyings {
+    let world = object.object_to_world * vec4f(in.position, 1.0);
+    var out: Varyings;
+    out.clip_position = frame.world_to_clip * world;
+    out.position_world = world.xyz;
+    return out;
+}
+
+@fragment
+fn fs_main(in: Varyings) -> @location(0) vec4f {
+    // sun: Directional light
+    let sun = directional_light(
+        in.position_world,
+        parameters.sun_direction,
+        parameters.sun_color,
+        parameters.sun_intensity,
+        parameters.sun_center,
+        parameters.sun_radius,
+        parameters.sun_angle,
+        parameters.sun_split_balance,
+        parameters.sun_split_reach,
+    );
+    let depth = dot(frame.camera_forward, in.position_world - frame.camera_position);
+    // shadow: Variance shadow
+    let shadow_visibility = variance_shadow(
+        in.position_world,
+        sun_space[(u32(depth > sun_space[0].depth.w) + u32(depth > sun_space[1].depth.w) + u32(depth > sun_space[2].depth.w))],
+        sun_map,
+        trilinear_clamp_anisotropic16_sampler,
+        parameters.shadow_minimum_variance,
+        parameters.shadow_bleeding_reduction,
+        object.receives,
+    );
+    return vec4f(sun.irradiance * shadow_visibility, 1.0);
+}
