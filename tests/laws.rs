@@ -4,5 +4,6 @@ mod adapters;
 mod lamp;
 mod lights;
 mod planar;
+mod splits;
 mod surfaces;
 mod variance;

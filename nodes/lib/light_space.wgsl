@@ -101,6 +101,11 @@ fn cube_view(first: LightSpace, point: vec3f) -> u32 {
     return select(4u, 5u, offset.z < 0.0);
 }
 
+/// Share that the next split has at a distance from the eye: it takes over in the last tenth of `view`.
+fn split_blend(view: LightSpace, distance: f32) -> f32 {
+    return saturate(distance / view.depth.w * 10.0 - 9.0);
+}
+
 /// One split for the four pixels of a quad, so that differences within it are of one map (Lauritzen 2007): powers of two
 /// can be told from their differences, whichever pixel asks. Quads with three or four different splits may stay split.
 fn split_of_quad(split: u32) -> u32 {

@@ -5,7 +5,8 @@
 //! option splits: 1 | 2 | 3 | 4 = 1 - Parts that the view is cut into along its depth, each with a map zoomed in on it: for wide views.
 //! option fit: tight | stable = tight - Maps of parts cover just what is seen, or stand still in the world while the camera moves, at a loss of resolution.
 //! option choice: pixel | quad = pixel - Parts are chosen per pixel, or one for each two by two, so that differences within it make sense.
-//! space: orthographic(direction, center, radius, angle, split_balance, split_reach) splits=$splits fit=$fit choice=$choice
+//! option blend: off | on = off - Parts go over into each other in the last tenth of each; shadows are then made twice.
+//! space: orthographic(direction, center, radius, angle, split_balance, split_reach) splits=$splits fit=$fit choice=$choice blend=$blend
 
 /// point (point world; = @position_world; hidden): The shaded point.
 /// direction (direction world; = (-1, -2, -1.5)): The way the light travels.

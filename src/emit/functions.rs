@@ -89,7 +89,10 @@ pub(crate) fn gather(program: &Program, reached: &Reached, catalog: &Catalog, na
         if let Resource::Space(light) = resource {
             let definition = &program.nodes[*light].definition;
             roots.insert("LightSpace");
-            roots.extend(definition.header.space.as_ref().and_then(|s| s.selector(definition)));
+            if let Some(space) = &definition.header.space {
+                roots.extend(space.selector(definition));
+                roots.extend(space.blends(definition).then_some("split_blend"));
+            }
         }
     }
     let items: Vec<&Item> = order.iter().filter_map(|n| library.get(n).copied()).collect();

@@ -58,7 +58,12 @@ pub const PROJECTIONS: &[Projection] = &[
         name: "orthographic",
         inputs: &["direction", "center", "radius", "angle", "split_balance", "split_reach"],
         needed: 4,
-        settings: &[("splits", &["1", "*"]), ("fit", &["tight", "stable"]), ("choice", &["pixel", "quad"])],
+        settings: &[
+            ("splits", &["1", "*"]),
+            ("fit", &["tight", "stable"]),
+            ("choice", &["pixel", "quad"]),
+            ("blend", &["off", "on"]),
+        ],
         views: Views::Setting("splits"),
     },
 ];
@@ -111,6 +116,11 @@ impl SpaceSpec {
             (_, "quad") if several => Some("split_of_quad"),
             _ => None,
         }
+    }
+
+    /// Whether neighbouring views go over into each other, so that a shadow is made in two of them and mixed.
+    pub fn blends(&self, definition: &Definition) -> bool {
+        self.views(definition) > 1 && self.setting(definition, "blend") == "on"
     }
 
     /// The inputs that define it with the options that are chosen: those that the node then has.

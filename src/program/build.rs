@@ -41,7 +41,7 @@ pub fn build(woven: &Woven, bake: Bake, unshadowed: bool) -> Program {
 fn evaluate(program: &mut Program, woven: &Woven, worth: &[Worth], index: usize) -> Worth {
     let node = &woven.nodes[index];
     let definition: &Definition = &node.definition;
-    let at = |light| Context { woven, worth, index, light };
+    let at = |light| Context { woven, worth, index, light, view: None };
     let mut result = Worth::default();
     if is_light(definition) {
         result.plain = program.call(&at(None), false);
@@ -70,8 +70,15 @@ fn evaluate(program: &mut Program, woven: &Woven, worth: &[Worth], index: usize)
                 .any(|w| matches!(w, Wire::Output { node, .. } if worth[*node].lit.contains_key(&light)))
         };
         if (depends || (combines && base_is_lit()))
-            && let Some(outputs) = program.call(&at(Some(light)), false)
+            && let Some(mut outputs) = program.call(&at(Some(light)), false)
         {
+            if is_shadow(definition)
+                && let Some((view, share)) = program.next_view_of_light(light, Some(index))
+                && let Some(next) = program.call(&Context { view: Some(view), ..at(Some(light)) }, false)
+            {
+                let mixed = |(here, there): (&Id, &Id)| program.mix(*here, *there, share);
+                outputs = outputs.iter().zip(&next).map(mixed).collect();
+            }
             result.lit.insert(light, outputs);
         }
     }
@@ -93,7 +100,7 @@ fn evaluate(program: &mut Program, woven: &Woven, worth: &[Worth], index: usize)
 
 /// The colour that is written.
 fn root(program: &mut Program, woven: &Woven, worth: &[Worth]) -> Option<Id> {
-    let nowhere = |light| Context { woven, worth, index: 0, light };
+    let nowhere = |light| Context { woven, worth, index: 0, light, view: None };
     match &woven.root {
         Root::Surface { node } => {
             let worth = &worth[*node];

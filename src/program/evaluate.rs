@@ -26,6 +26,8 @@ pub(crate) struct Context<'a> {
     pub(crate) index: usize,
     /// The light, if any.
     pub(crate) light: Option<usize>,
+    /// A view of the light to be used instead of the one that sees the shaded point.
+    pub(crate) view: Option<Id>,
 }
 
 impl Context<'_> {
@@ -119,7 +121,10 @@ impl Program {
             }
             Wire::Value(value) => Some(self.parameter(&node.definition, context.index, port, value)),
             Wire::Source(name) => Some(self.provided(context, name, port)),
-            Wire::Space => Some(self.view_of_light(context.light?, origin)),
+            Wire::Space => {
+                let light = context.light?;
+                Some(context.view.unwrap_or_else(|| self.view_of_light(light, origin)))
+            }
             Wire::Map => {
                 let index = self.map(&node.definition, context.index, context.light?, port);
                 let name = format!("{}_map", self.nodes[context.light?].short);

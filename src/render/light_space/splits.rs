@@ -10,6 +10,9 @@ use crate::render::RenderError;
 /// Part of a view's width that is added on each side, for filters that reach beyond what is seen.
 const BORDER: f32 = 0.03;
 
+/// Part of a split, at its far end, in which the next one takes over where they blend: the shader counts on it.
+const OVERLAP: f32 = 0.1;
+
 /// The views of a light with splits, nearest to the eye first.
 pub(super) fn views(
     inputs: &Inputs<'_>,
@@ -31,6 +34,7 @@ pub(super) fn views(
     // One range of depths for all, so that what is filtered in depth means the same in each.
     let (low, high) = around.bounds.depth_in_column(frame, radius);
     let margin = (high - low).max(radius) * 1e-3;
+    let blend = space.settings.get("blend").is_some_and(|blend| blend == "on");
     let mut views = Vec::new();
     let mut begin = near;
     for &end in &ends {
@@ -48,7 +52,7 @@ pub(super) fn views(
             depth,
             source,
         });
-        begin = end;
+        begin = if blend { end * (1.0 - OVERLAP) } else { end };
     }
     let density = |view: &LightSpace| (view.projection.x * view.projection.y).sqrt();
     let coarsest = views.iter().map(density).fold(f32::INFINITY, f32::min);
