@@ -53,6 +53,39 @@ fn light_linear_depth(space: LightSpace, distance: f32) -> f32 {
     return (distance - space.depth.x) * space.depth.z;
 }
 
+/// Depth of a point in light coordinates in the metric of `light_linear_depth`: along the axis, even in metres. Not clamped.
+fn light_depth_linear(space: LightSpace, position: vec3f) -> f32 {
+    return light_linear_depth(space, position.z);
+}
+
+/// Depth as projection matrices leave it, z / w: 0 at the near plane, 1 at the far plane, and most of the range spent close
+/// to the near plane. The same as linear depth in parallel light. Not clamped.
+fn light_depth_zw(space: LightSpace, position: vec3f) -> f32 {
+    let linear = light_linear_depth(space, position.z);
+    return linear * select(1.0, space.depth.y / max(position.z, 1e-6), space.projection.z > 0.5);
+}
+
+/// Depth by the distance from the light itself, in parts of its range: 1 on a sphere that touches the far plane. The same
+/// on all faces of a cube. The same as linear depth in parallel light. Not clamped.
+fn light_depth_radial(space: LightSpace, position: vec3f) -> f32 {
+    let radial = length(position) / space.depth.y;
+    return select(light_linear_depth(space, position.z), radial, space.projection.z > 0.5);
+}
+
+/// Change of `light_depth_zw` per change of linear depth along the light's ray: turns margins in linear depth into margins
+/// in z / w. The metric itself is known to some 1e-7, which has to be added behind.
+fn light_scale_zw(space: LightSpace, position: vec3f) -> f32 {
+    let distance = max(position.z, space.depth.x);
+    let scale = space.depth.x * space.depth.y / max(distance * distance, 1e-12);
+    return select(1.0, scale, space.projection.z > 0.5);
+}
+
+/// Change of `light_depth_radial` per change of linear depth along the light's ray.
+fn light_scale_radial(space: LightSpace, position: vec3f) -> f32 {
+    let ray = length(vec3f(light_ray(space, position), 1.0));
+    return select(1.0, ray / (space.depth.z * space.depth.y), space.projection.z > 0.5);
+}
+
 /// What ndc is proportional to: the direction of the ray (perspective) or the offset from the axis in metres (parallel).
 fn light_ray(space: LightSpace, position: vec3f) -> vec2f {
     return position.xy / select(1.0, max(position.z, 1e-6), space.projection.z > 0.5);
@@ -136,18 +169,39 @@ fn receiver_plane(space: LightSpace, position: vec3f, normal: vec3f) -> Receiver
     return ReceiverPlane(light_map_uv(space, position), position.z, n.xy * ray_per_uv / bounded, n.xy / bounded);
 }
 
-/// Linear depth, clamped to [0, 1], where the light's ray through `uv` meets the plane. Exact for both projections, up to the
-/// bounds above: with plane n.p = n0, a perspective ray (a, b, 1) z meets it at z = n0 / (n.x a + n.y b + n.z), a parallel one at
-/// z = (n0 - n.x a - n.y b) / n.z; both are written relative to the shaded point, where rounding is least.
-fn receiver_depth(space: LightSpace, plane: ReceiverPlane, uv: vec2f) -> f32 {
+/// Distance along the light's axis at which its ray through `uv` meets the plane. Exact for both projections, up to the
+/// bounds above: with plane n.p = n0, a perspective ray (a, b, 1) z meets it at z = n0 / (n.x a + n.y b + n.z), a parallel
+/// one at z = (n0 - n.x a - n.y b) / n.z; both are written relative to the shaded point, where rounding is least.
+fn receiver_distance(space: LightSpace, plane: ReceiverPlane, uv: vec2f) -> f32 {
     let change = dot(plane.slope, uv - plane.uv);
     let parallel = plane.distance - change;
     // Rays that run away along the plane are held within four times the distance.
     let perspective = plane.distance / max(1.0 + change, 0.25);
     let is_perspective = space.projection.z > 0.5;
     let across = length((uv - plane.uv) * 2.0 / space.projection.xy) * select(1.0, plane.distance, is_perspective);
-    let distance = min(select(parallel, perspective, is_perspective), plane.distance + MAX_RETREAT * across);
-    return saturate(light_linear_depth(space, distance));
+    return min(select(parallel, perspective, is_perspective), plane.distance + MAX_RETREAT * across);
+}
+
+/// The same place in light coordinates.
+fn receiver_position(space: LightSpace, plane: ReceiverPlane, uv: vec2f) -> vec3f {
+    let distance = receiver_distance(space, plane, uv);
+    let ray = (uv - 0.5) * vec2f(2.0, -2.0) / space.projection.xy;
+    return vec3f(ray * select(1.0, distance, space.projection.z > 0.5), distance);
+}
+
+/// Linear depth, clamped to [0, 1], where the light's ray through `uv` meets the plane.
+fn receiver_depth(space: LightSpace, plane: ReceiverPlane, uv: vec2f) -> f32 {
+    return saturate(light_linear_depth(space, receiver_distance(space, plane, uv)));
+}
+
+/// `light_depth_zw`, clamped to [0, 1], of the same place.
+fn receiver_depth_zw(space: LightSpace, plane: ReceiverPlane, uv: vec2f) -> f32 {
+    return saturate(light_depth_zw(space, receiver_position(space, plane, uv)));
+}
+
+/// `light_depth_radial`, clamped to [0, 1], of the same place.
+fn receiver_depth_radial(space: LightSpace, plane: ReceiverPlane, uv: vec2f) -> f32 {
+    return saturate(light_depth_radial(space, receiver_position(space, plane, uv)));
 }
 
 /// Size of the change of linear depth per unit of `uv` at the shaded point: |d depth/du|, |d depth/dv|.
