@@ -1,7 +1,7 @@
 //! A node file, read as far as somebody asks: header first, a definition per set of choices later.
 
 use std::borrow::Cow;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
 use super::conditional::{self, Kept};
@@ -148,6 +148,18 @@ pub(crate) fn resolve(
     }
     let made = |o: &OptionSpec| (o.name.clone(), choices.get(&o.name).unwrap_or(&o.default).clone());
     Ok(options.iter().map(made).collect())
+}
+
+/// Where the lines begin that the conditions of a text keep for these choices.
+pub(crate) fn kept_lines(text: &str, options: &[OptionSpec], choices: &[(String, String)]) -> BTreeSet<usize> {
+    let lookup = |name: &str| {
+        let option = options.iter().find(|o| o.name == name)?;
+        let choice = choices.iter().find(|(n, _)| n == name)?;
+        Some((choice.1.as_str(), option.choices.as_slice()))
+    };
+    let kept = conditional::apply(text, &lookup).0;
+    let starts = std::iter::once(0).chain(kept.text.match_indices('\n').map(|(at, _)| at + 1));
+    starts.map(|at| kept.original(at)).collect()
 }
 
 /// Applies choices to the text of `report`: conditions, then constants that numeric options set.

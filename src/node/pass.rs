@@ -67,7 +67,32 @@ impl PassFile {
     /// # Errors
     /// Everything that is wrong with the header.
     pub fn parse(source: &Arc<SourceText>) -> Result<Self, Vec<Diagnostic>> {
+        let options = all_options(source);
+        let defaults: Vec<(String, String)> = options.iter().map(|o| (o.name.clone(), o.default.clone())).collect();
+        Self::read(source, &options, &defaults)
+    }
+
+    /// The pass for these choices: conditions may stand around header lines, too, though not around options. Choices that
+    /// the pass does not know are passed over; [`PassFile::text`] complains of them.
+    ///
+    /// # Errors
+    /// Everything that is wrong with the header for these choices.
+    pub fn chosen(&self, choices: &Choices) -> Result<Self, Vec<Diagnostic>> {
+        let made = |o: &OptionSpec| {
+            let choice = choices.get(&o.name).filter(|c| o.choices.contains(c));
+            (o.name.clone(), choice.unwrap_or(&o.default).clone())
+        };
+        let made: Vec<(String, String)> = self.options.iter().map(made).collect();
+        Self::read(&self.source, &self.options, &made)
+    }
+
+    fn read(
+        source: &Arc<SourceText>,
+        options: &[OptionSpec],
+        choices: &[(String, String)],
+    ) -> Result<Self, Vec<Diagnostic>> {
         let mut report = Report::new(source);
+        let kept = file::kept_lines(&source.text, options, choices);
         let mut pass = Self {
             name: stem(&source.name).to_owned(),
             kind: PassKind::Image,
@@ -82,9 +107,10 @@ impl PassFile {
             source: source.clone(),
         };
         let mut seen: Vec<&str> = Vec::new();
-        let header =
-            lines(&source.text).map(Piece::trim).take_while(|l| l.text.is_empty() || l.text.starts_with("//!"));
-        for line in header.filter(|l| !l.text.is_empty()) {
+        for line in header_lines(&source.text).filter(|l| kept.contains(&l.at)).map(Piece::trim) {
+            if line.text.is_empty() {
+                continue;
+            }
             let line = line.slice(3..line.text.len()).trim();
             let Some((key, value)) = line.split_once(":") else {
                 pass.describe(line);
@@ -254,6 +280,30 @@ impl PassFile {
     }
 }
 
+/// Lines before the first one of code: headers, conditions around them, and empty ones.
+fn header_lines(text: &str) -> impl Iterator<Item = Piece<'_>> {
+    let is_header = |line: &Piece<'_>| {
+        let line = line.trim().text;
+        line.is_empty() || line.starts_with("//!") || line.starts_with("//#")
+    };
+    lines(text).take_while(is_header)
+}
+
+/// Options of a header, whatever the conditions around them; what is wrong with them is told when the header is read.
+fn all_options(source: &Arc<SourceText>) -> Vec<OptionSpec> {
+    let mut unheard = Report::new(source);
+    let mut found: Vec<OptionSpec> = Vec::new();
+    for line in header_lines(&source.text).map(Piece::trim).filter(|l| l.text.starts_with("//!")) {
+        if let Some((key, value)) = line.slice(3..line.text.len()).trim().split_once(":")
+            && let [word, name] = key.words()[..]
+            && word.text == "option"
+        {
+            found.extend(settings::option(&mut unheard, name, value));
+        }
+    }
+    found
+}
+
 /// Names of the items that `roots` mention, directly or through others, `roots` included.
 pub fn reachable<'a>(items: &[&'a Item], roots: &[&'a str]) -> BTreeSet<&'a str> {
     let by_name: BTreeMap<&str, &'a Item> = items.iter().map(|i| (i.name.as_str(), *i)).collect();
@@ -318,6 +368,32 @@ fn unused() -> f32 { return 1.0; }
         assert!(text.contains("fn corner") && text.contains("var input") && text.contains("WIDTH: i32 = 3;"), "{text}");
         assert!(!text.contains("unused") && !text.contains("other"), "{text}");
         assert!(naga::front::wgsl::parse_str(&text).is_ok());
+    }
+
+    #[test]
+    fn conditions_choose_header_lines() {
+        let text = "\
+//! kind: image
+//! option precision: half | single = single - Bits.
+//#if precision == half
+//! target: rg16float
+//! clear: 2
+//#else
+//! target: rg32float
+//! clear: 3
+//#end
+//! Reads.
+";
+        let p = pass(text).unwrap();
+        assert_eq!((p.targets.as_slice(), p.clear.as_slice()), (["rg32float".to_owned()].as_slice(), [3.0].as_slice()));
+        let half = p.chosen(&Choices::from([("precision".into(), "half".into())])).unwrap();
+        assert_eq!(
+            (half.targets.as_slice(), half.clear.as_slice()),
+            (["rg16float".to_owned()].as_slice(), [2.0].as_slice())
+        );
+        assert_eq!(half.description, "Reads.");
+        let unknown = Choices::from([("precision".into(), "double".into()), ("other".into(), "a".into())]);
+        assert_eq!(p.chosen(&unknown).unwrap().targets, p.targets);
     }
 
     #[test]

@@ -71,6 +71,10 @@ fn expand(
     passes: &mut Vec<Pass>,
     out: &mut Vec<Diagnostic>,
 ) {
+    let file = &match file.chosen(arguments) {
+        Ok(file) => file,
+        Err(mut found) => return out.append(&mut found),
+    };
     if file.is_skipped(arguments) {
         return;
     }
@@ -101,8 +105,9 @@ fn expand(
             chosen.entry(option.name.clone()).or_insert_with(|| option.default.clone());
         }
         let targets = match chosen.get("format").map(String::as_str) {
-            None | Some("auto") => file.targets.clone(),
-            Some(format) => vec![format.to_owned()],
+            Some(format) if file.targets.iter().any(|t| t == format) => vec![format.to_owned()],
+            // `auto`, or a choice of storage that the pass answers with target lines of its own.
+            _ => file.targets.clone(),
         };
         passes.push(Pass {
             name: file.name.clone(),
