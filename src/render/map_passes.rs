@@ -167,6 +167,8 @@ impl MapPlan<'_> {
         });
         for (draw, object) in work.draws.iter().zip(work.objects).filter(|(d, _)| d.casts && !d.mesh.indices.is_empty())
         {
+            let mirrored = self.steps[0].mirrored.as_deref().filter(|_| draw.object_to_world.determinant() < 0.0);
+            let pipeline = mirrored.unwrap_or(pipeline);
             let resources = [(0, 0, space.as_entire_binding()), (1, 0, object.as_entire_binding())];
             pipeline.set(&mut encoded, &pipeline.bind(device, &resources));
             let positions = work.uploads.attribute(draw.mesh, Attribute::Position.location())?;

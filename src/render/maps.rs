@@ -28,6 +28,8 @@ pub(super) struct MapPlan<'a> {
 /// A pass with what it writes.
 pub(super) struct Step {
     pub(super) pipeline: Option<Arc<Pipeline>>,
+    /// The same for mirrored objects, where sides are told apart.
+    pub(super) mirrored: Option<Arc<Pipeline>>,
     pub(super) format: TextureFormat,
     /// Texels on a side.
     pub(super) side: u32,
@@ -89,7 +91,12 @@ impl<'a> LightPlans<'a> {
         for map in &mut self.maps {
             for index in 0..map.passes.len() {
                 let what = format!("pass `{}` of light `{}`", map.passes[index].name, map.light);
-                map.steps[index].pipeline = Some(pipelines.get(device, &what, map.spec(device, index))?);
+                let spec = map.spec(device, index);
+                if spec.culling != Culling::Nothing {
+                    let mirrored = Spec { mirrored: !spec.mirrored, ..spec.clone() };
+                    map.steps[index].mirrored = Some(pipelines.get(device, &what, mirrored)?);
+                }
+                map.steps[index].pipeline = Some(pipelines.get(device, &what, spec)?);
             }
         }
         Ok(())
@@ -169,7 +176,7 @@ impl MapPlan<'_> {
             }
             for pass in &self.passes[position..position + passes] {
                 side = (side / pass.number("scale").unwrap_or(1).max(1)).max(1);
-                self.steps.push(Step { pipeline: None, format, side });
+                self.steps.push(Step { pipeline: None, mirrored: None, format, side });
             }
             position += passes;
         }
@@ -241,7 +248,8 @@ impl MapPlan<'_> {
             color: (!is_depth).then_some(step.format),
             depth,
             samples: if pass.kind == PassKind::Geometry { self.samples(device) } else { 1 },
-            mirrored: false,
+            // A light's frame is right-handed and looks along +z, so that maps are mirror images.
+            mirrored: pass.kind == PassKind::Geometry,
             culling: match pass.choices.get("cull").map(String::as_str) {
                 Some("front") => Culling::Front,
                 Some("back") => Culling::Back,
