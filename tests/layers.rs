@@ -22,7 +22,7 @@ const ALLOWED: &[(&str, &[&str])] = &[
     ("report", &["diagnostic"]),
     ("explain", &["ron", "graph", "node", "scene"]),
     ("scene", &["diagnostic", "semantic", "ron"]),
-    ("reference", &[]),
+    ("reference", &["scene"]),
     ("render", &["semantic", "module", "plan", "scene", "compile"]),
 ];
 

@@ -1,13 +1,26 @@
-//! What shadows ought to be, in float64 and without a line in common with the shaders: filter kernels, closed forms of
-//! percentage-closer filtering and of variance shadow maps over planes, and the exhaustive filter over planar layers.
+//! What shadows ought to be, in float64 and without a line in common with the shaders or their hosts: filter kernels,
+//! closed forms of percentage-closer filtering and of variance shadow maps over planes, the exhaustive filter over planar
+//! layers; and for any scene ([`World`]) visibility by rays ([`rays`]).
 //!
 //! Conventions: depth runs from 0 at the light's near plane to 1 at its far plane. Map positions are in texels, with
 //! texel (i, j) covering [i, i + 1) x [j, j + 1) and sampled at its centre. Visibility is the lit share, 1 or less.
 
+mod bvh;
 mod kernel;
 mod layers;
+mod ray;
+pub mod rays;
+mod source;
 mod variance;
+mod view;
+mod world;
 
+pub use bvh::Bvh;
 pub use kernel::{Weights, box_ramp, edge_visibility, gaussian_ramp, kernel};
 pub use layers::{Layer, Layers, Taps};
+pub use ray::Ray;
+pub use rays::Estimate;
+pub use source::Source;
 pub use variance::{Mix, chebyshev, reduce_bleeding, spread_cured_by, worst_bleeding};
+pub use view::{Projection, View};
+pub use world::{Body, Point, World};
