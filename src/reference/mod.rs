@@ -1,13 +1,18 @@
 //! What shadows ought to be, in float64 and without a line in common with the shaders or their hosts: filter kernels,
 //! closed forms of percentage-closer filtering and of variance shadow maps over planes, the exhaustive filter over planar
-//! layers; and for any scene ([`World`]) visibility by rays ([`rays`]).
+//! layers; and for any scene ([`World`], [`Light`]) the exhaustive filter over a map many times finer ([`FineMap`]), and
+//! visibility by rays ([`rays`]), for points or whole pictures ([`picture`]).
 //!
 //! Conventions: depth runs from 0 at the light's near plane to 1 at its far plane. Map positions are in texels, with
 //! texel (i, j) covering [i, i + 1) x [j, j + 1) and sampled at its centre. Visibility is the lit share, 1 or less.
 
 mod bvh;
+mod fine_map;
+mod footprint;
 mod kernel;
 mod layers;
+mod light;
+pub mod picture;
 mod ray;
 pub mod rays;
 mod source;
@@ -16,8 +21,11 @@ mod view;
 mod world;
 
 pub use bvh::Bvh;
+pub use fine_map::{Filter, FineMap};
+pub use footprint::filter_below;
 pub use kernel::{Weights, box_ramp, edge_visibility, gaussian_ramp, kernel};
 pub use layers::{Layer, Layers, Taps};
+pub use light::Light;
 pub use ray::Ray;
 pub use rays::Estimate;
 pub use source::Source;
