@@ -52,7 +52,7 @@ pub enum Resource {
     },
     /// A sampler.
     Sampler(SamplerSettings),
-    /// Uniform `LightSpace` (112 bytes) of the light with this name in the plan, or an array of one for each of its views.
+    /// Uniform `LightSpace` (128 bytes) of the light with this name in the plan, or an array of one for each of its views.
     Space {
         /// Name in the plan.
         light: String,

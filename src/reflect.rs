@@ -52,7 +52,7 @@ fn binding(binding: &Binding, parameter_bytes: u32) -> Map<String, Json> {
         }
         Resource::Sampler(settings) => sampler(settings),
         Resource::Space { light, views } => {
-            json!({ "kind": "space", "light": light, "views": views, "bytes": 112 * views })
+            json!({ "kind": "space", "light": light, "views": views, "bytes": 128 * views })
         }
         Resource::Map { index, ty } => json!({ "kind": "map", "map": index, "type": ty }),
         Resource::Environment => json!({ "kind": "environment" }),

@@ -1,6 +1,6 @@
 //! The space that a light's maps are made in: where a point lies in it, and how a receiving plane runs through it.
 
-/// One view that a light has of the scene, filled by the host; 112 bytes. Lengths are metres.
+/// One view that a light has of the scene, filled by the host; 128 bytes. Lengths are metres.
 struct LightSpace {
     /// Rigid: the light at the origin, looking along +z, +y up.
     world_to_light: mat4x4f,
@@ -13,6 +13,8 @@ struct LightSpace {
     /// it is seen under (parallel). z: 1 an ellipse, 0 a rectangle. w: texels per metre here over those of the light's
     /// coarsest view.
     source: vec4f,
+    /// x: strength of the warp, -1 to 1, where the light warps its map.
+    warp: vec4f,
 }
 
 /// The plane of the surface that is shaded, ready to be met by the ray through any other place on the map.

@@ -6,7 +6,8 @@
 //! option fit: tight | stable = tight - Maps of parts cover just what is seen, or stand still in the world while the camera moves, at a loss of resolution.
 //! option choice: pixel | quad = pixel - Parts are chosen per pixel, or one for each two by two, so that differences within it make sense.
 //! option blend: off | on = off - Parts go over into each other in the last tenth of each; shadows are then made twice.
-//! space: orthographic(direction, center, radius, angle, split_balance, split_reach) splits=$splits fit=$fit choice=$choice blend=$blend
+//! option warp: off | perspective = off - Spend the texels of a single map on what is near the eye (light-space perspective shadow maps).
+//! space: orthographic(direction, center, radius, angle, split_balance, split_reach) splits=$splits fit=$fit choice=$choice blend=$blend warp=$warp
 
 /// point (point world; = @position_world; hidden): The shaded point.
 /// direction (direction world; = (-1, -2, -1.5)): The way the light travels.

@@ -3,7 +3,8 @@
 //! synonyms: spotlight, cone light, projector, torch
 //! use: light_falloff
 //! Light from a point within a cone, with a smooth edge. It falls off with the square of the distance; nothing else bounds it.
-//! space: perspective(position, direction, outer_angle, near, range, radius)
+//! option warp: off | perspective = off - Spend the texels of the map on what is near the eye (light-space perspective shadow maps).
+//! space: perspective(position, direction, outer_angle, near, range, radius) warp=$warp
 
 /// point (point world; = @position_world; hidden): The shaded point.
 /// position (point world; = (2, 4, 3); in m): Where the light is.

@@ -52,6 +52,7 @@ impl Functions {
 /// Everything that the reached functions mention, directly or through others.
 pub(crate) fn gather(program: &Program, reached: &Reached, catalog: &Catalog, names: &mut Names) -> Functions {
     let mut functions = Functions::default();
+    let variants: Vec<Item> = variants(program, reached).into_iter().flat_map(|v| catalog.variant(v)).collect();
     let mut library: BTreeMap<&str, &Item> = BTreeMap::new();
     let mut roots: BTreeSet<&str> = BTreeSet::new();
     let mut order: Vec<&str> = Vec::new();
@@ -83,6 +84,11 @@ pub(crate) fn gather(program: &Program, reached: &Reached, catalog: &Catalog, na
             roots.extend(item.mentions.iter().map(String::as_str));
         }
         own.push((index, kept));
+    }
+    for item in &variants {
+        if library.insert(&item.name, item).is_none() {
+            order.push(&item.name);
+        }
     }
     // The space of a light is a structure even where no node mentions it by name.
     for resource in &reached.resources {
@@ -143,6 +149,18 @@ pub(crate) fn gather(program: &Program, reached: &Reached, catalog: &Catalog, na
         functions.results.extend(result.map(|s| (index, s.clone())));
     }
     functions
+}
+
+/// The libraries that lights want instead of the usual functions, each once.
+fn variants(program: &Program, reached: &Reached) -> BTreeSet<&'static str> {
+    let of = |resource: &Resource| match resource {
+        Resource::Space(light) => {
+            let definition = &program.nodes[*light].definition;
+            definition.header.space.as_ref()?.variant(definition)
+        }
+        _ => None,
+    };
+    reached.resources.iter().filter_map(of).collect()
 }
 
 fn instantiate(text: &str, renamed: &BTreeMap<&str, String>, shape: Option<&str>) -> String {

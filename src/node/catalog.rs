@@ -4,11 +4,12 @@ use std::borrow::Cow;
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::{Arc, OnceLock};
 
-use super::definition::{Definition, Header, Library};
+use super::definition::{Definition, Header, Item, Library};
 use super::file::{self, NodeFile, stem};
 use super::header;
 use super::pass::PassFile;
 use super::report::Report;
+use super::tokens::rename;
 use crate::diagnostic::{Diagnostic, Place, SourceText, did_you_mean, has_errors};
 
 mod embedded {
@@ -185,6 +186,21 @@ impl Catalog {
             }
         }
         order
+    }
+
+    /// The items of the library called `name` under the names that they take the place of: those that end in the last word
+    /// of the library's name are called without it, also where others mention them.
+    pub fn variant(&self, name: &str) -> Vec<Item> {
+        let suffix = name.rfind('_').map_or("", |at| &name[at..]);
+        let base = |word: &str| word.strip_suffix(suffix).map(str::to_owned).filter(|_| !suffix.is_empty());
+        let items = self.library(name).map_or(&[][..], |l| &l.items);
+        let renamed = |item: &Item| Item {
+            name: base(&item.name).unwrap_or_else(|| item.name.clone()),
+            text: rename(&item.text, &|word| base(word)),
+            mentions: item.mentions.iter().map(|m| base(m).unwrap_or_else(|| m.clone())).collect(),
+            offset: item.offset,
+        };
+        items.iter().map(renamed).collect()
     }
 
     /// The fixed pass called `name`; `None` if there is none of that name.

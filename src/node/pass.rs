@@ -253,6 +253,19 @@ impl PassFile {
     /// # Errors
     /// Unknown choices and libraries, malformed conditions and declarations. The text is not judged by naga here.
     pub fn text(&self, choices: &Choices, catalog: &Catalog) -> Result<String, Vec<Diagnostic>> {
+        self.text_with(choices, catalog, None)
+    }
+
+    /// The same with the items of a variant in the place of those that they are a variant of ([`Catalog::variant`]).
+    ///
+    /// # Errors
+    /// As [`Self::text`].
+    pub fn text_with(
+        &self,
+        choices: &Choices,
+        catalog: &Catalog,
+        variant: Option<&str>,
+    ) -> Result<String, Vec<Diagnostic>> {
         let mut report = Report::new(&self.source);
         let choices = resolve(&self.options, choices, Place::file(&self.source.name))?;
         let applied = file::apply(&mut report, &self.options, &choices);
@@ -272,7 +285,10 @@ impl PassFile {
                 .help("mark one function `@vertex` and one `@fragment`");
             return Err(report.found);
         }
-        let items: Vec<&Item> = catalog.closure(&self.uses).into_iter().flat_map(|l| &l.items).chain(&own).collect();
+        let others = variant.map_or(Vec::new(), |name| catalog.variant(name));
+        let replaced = |item: &&Item| others.iter().all(|other| other.name != item.name);
+        let libraries = catalog.closure(&self.uses).into_iter().flat_map(|l| &l.items).filter(replaced);
+        let items: Vec<&Item> = libraries.chain(&others).chain(&own).collect();
         let kept = reachable(&items, &entries);
         let texts: Vec<&str> =
             items.iter().filter(|i| kept.contains(i.name.as_str())).map(|i| i.text.as_str()).collect();

@@ -37,7 +37,7 @@ pub const PROJECTIONS: &[Projection] = &[
         name: "perspective",
         inputs: &["position", "direction", "outer_angle", "near", "range", "radius"],
         needed: 6,
-        settings: &[],
+        settings: &[("warp", &["off", "perspective"])],
         views: Views::Fixed(1),
     },
     Projection {
@@ -63,6 +63,7 @@ pub const PROJECTIONS: &[Projection] = &[
             ("fit", &["tight", "stable"]),
             ("choice", &["pixel", "quad"]),
             ("blend", &["off", "on"]),
+            ("warp", &["off", "perspective"]),
         ],
         views: Views::Setting("splits"),
     },
@@ -121,6 +122,12 @@ impl SpaceSpec {
     /// Whether neighbouring views go over into each other, so that a shadow is made in two of them and mixed.
     pub fn blends(&self, definition: &Definition) -> bool {
         self.views(definition) > 1 && self.setting(definition, "blend") == "on"
+    }
+
+    /// The library whose functions take the place of those of `light_space`, where this light needs others.
+    pub fn variant(&self, definition: &Definition) -> Option<&'static str> {
+        let warped = self.views(definition) == 1 && self.setting(definition, "warp") == "perspective";
+        warped.then_some("light_space_warped")
     }
 
     /// The inputs that define it with the options that are chosen: those that the node then has.

@@ -83,7 +83,9 @@ fn expand(
     for axis in axes {
         let mut chosen = arguments.clone();
         chosen.extend(axis.map(|a| ("axis".to_owned(), a.clone())));
-        let wgsl = match file.text(&chosen, catalog) {
+        let light = &program.nodes[demand.light].definition;
+        let variant = light.header.space.as_ref().and_then(|s| s.variant(light));
+        let wgsl = match file.text_with(&chosen, catalog, variant) {
             Ok(text) => text,
             Err(found) => {
                 // A choice that the pass does not have was made by the node; anything else is wrong in the pass itself.

@@ -1,6 +1,8 @@
 //! How far a scene reaches, as seen from a light.
 
-use glam::{Mat4, Vec3};
+use glam::{Mat4, Vec3, Vec4};
+
+use super::Eye;
 
 /// Boxes around the objects of a scene, as their corners in world space.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -54,13 +56,63 @@ impl Bounds {
     }
 }
 
+impl Bounds {
+    /// Least and greatest distance along the eye's axis of the boxes' parts that it sees. None where it sees nothing.
+    pub(super) fn seen(&self, eye: &Eye) -> Option<(f32, f32)> {
+        let (half_width, half_height) = eye.half;
+        let sides = [
+            Vec4::new(-1.0, 0.0, half_width, 0.0),
+            Vec4::new(1.0, 0.0, half_width, 0.0),
+            Vec4::new(0.0, -1.0, half_height, 0.0),
+            Vec4::new(0.0, 1.0, half_height, 0.0),
+            Vec4::new(0.0, 0.0, 1.0, -eye.range.0),
+            Vec4::new(0.0, 0.0, -1.0, eye.range.1),
+        ];
+        let mut range: Option<(f32, f32)> = None;
+        let mut add = |z: f32| {
+            let (low, high) = range.unwrap_or((z, z));
+            range = Some((low.min(z), high.max(z)));
+        };
+        for corners in &self.corners {
+            let corners = corners.map(|c| {
+                let offset = c - eye.position;
+                Vec3::new(offset.dot(eye.right), offset.dot(eye.up), offset.dot(eye.forward))
+            });
+            if around_origin(&corners) {
+                // What is in a box may lie anywhere in it.
+                add(eye.range.0);
+            }
+            for face in FACES {
+                let polygon = face.iter().map(|i| corners[*i]).collect();
+                clip(polygon, &sides).iter().for_each(|p| add(p.z));
+            }
+        }
+        range
+    }
+}
+
+/// Whether a box holds the origin.
+fn around_origin(corners: &[Vec3; 8]) -> bool {
+    let origin = corners[0];
+    [1, 2, 4].iter().all(|i| {
+        let edge = corners[*i] - origin;
+        let along = -origin.dot(edge);
+        along > 0.0 && along < edge.length_squared()
+    })
+}
+
 /// The faces of a box by the numbers of their corners, around each face.
 const FACES: [[usize; 4]; 6] = [[0, 2, 6, 4], [1, 3, 7, 5], [0, 1, 5, 4], [2, 3, 7, 6], [0, 1, 3, 2], [4, 5, 7, 6]];
 
-/// The part of a convex polygon with |x|, |y| <= `radius` (Sutherland and Hodgman 1974).
-fn clip_to_column(mut polygon: Vec<Vec3>, radius: f32) -> Vec<Vec3> {
-    for side in [Vec3::X, Vec3::NEG_X, Vec3::Y, Vec3::NEG_Y] {
-        let inside = |p: Vec3| radius - p.dot(side);
+/// The part of a convex polygon with |x|, |y| <= `radius`.
+fn clip_to_column(polygon: Vec<Vec3>, radius: f32) -> Vec<Vec3> {
+    clip(polygon, &[Vec3::X, Vec3::NEG_X, Vec3::Y, Vec3::NEG_Y].map(|side| side.extend(radius)))
+}
+
+/// The part of a convex polygon where (x, y, z, 1) times each of `sides` is not negative (Sutherland and Hodgman 1974).
+fn clip(mut polygon: Vec<Vec3>, sides: &[Vec4]) -> Vec<Vec3> {
+    for side in sides {
+        let inside = |p: Vec3| p.extend(1.0).dot(*side);
         let mut kept = Vec::with_capacity(polygon.len() + 1);
         for (i, &from) in polygon.iter().enumerate() {
             let to = polygon[(i + 1) % polygon.len()];

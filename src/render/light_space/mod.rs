@@ -4,6 +4,7 @@
 mod bounds;
 mod eye;
 mod splits;
+mod warp;
 
 use glam::{Mat4, Vec3, Vec4};
 
@@ -15,7 +16,7 @@ use crate::semantic::Value;
 pub use bounds::Bounds;
 pub use eye::Eye;
 
-/// One view that a light has of the scene, laid out as the WGSL `LightSpace` (112 bytes). Lengths are metres.
+/// One view that a light has of the scene, laid out as the WGSL `LightSpace` (128 bytes). Lengths are metres.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LightSpace {
     /// Rigid: the light at the origin, looking along +z, +y up.
@@ -28,16 +29,18 @@ pub struct LightSpace {
     /// Half size of the shining surface along x and y, in metres for perspective, as tangents of angles for parallel
     /// light; z is 1 for an ellipse and 0 for a rectangle; w is texels per metre over those of the coarsest view.
     pub source: Vec4,
+    /// x is the strength of the warp of a light-space perspective shadow map, between -1 and 1.
+    pub warp: Vec4,
 }
 
 /// Size of a [`LightSpace`] in a uniform buffer.
-pub const LIGHT_SPACE_BYTES: u64 = 112;
+pub const LIGHT_SPACE_BYTES: u64 = 128;
 
 impl LightSpace {
     /// As the shader reads it.
     pub fn to_bytes(&self) -> Vec<u8> {
         let columns = self.world_to_light.to_cols_array();
-        let rest = [self.projection, self.depth, self.source].into_iter().flat_map(|v| v.to_array());
+        let rest = [self.projection, self.depth, self.source, self.warp].into_iter().flat_map(|v| v.to_array());
         columns.into_iter().chain(rest).flat_map(f32::to_le_bytes).collect()
     }
 }
@@ -81,6 +84,11 @@ pub fn light_spaces(
         },
         other => return Err(RenderError::Job(format!("light `{}`: `{other}` is not a projection", light.name))),
     };
+    if let [view] = views.as_mut_slice()
+        && space.settings.get("warp").is_some_and(|warp| warp == "perspective")
+    {
+        warp::apply(view, around);
+    }
     for (layer, view) in (0_u8..).zip(&mut views) {
         view.projection.w = f32::from(layer);
     }
@@ -168,6 +176,7 @@ fn perspective(inputs: &Inputs<'_>) -> Result<LightSpace, RenderError> {
         projection: Vec4::new(focal, focal, 1.0, 0.0),
         depth: depth_range(near, far),
         source: POINT,
+        warp: Vec4::ZERO,
     })
 }
 
@@ -197,6 +206,7 @@ fn cube(inputs: &Inputs<'_>) -> Result<Vec<LightSpace>, RenderError> {
         projection: Vec4::new(FACE.recip(), FACE.recip(), 1.0, 0.0),
         depth: depth_range(near, far),
         source: Vec4::new(radius, radius, 1.0, 1.0),
+        warp: Vec4::ZERO,
     };
     Ok(axes.map(face).to_vec())
 }
@@ -227,6 +237,7 @@ fn orthographic(inputs: &Inputs<'_>, bounds: &Bounds) -> Result<LightSpace, Rend
         projection: Vec4::new(focal, focal, 0.0, 0.0),
         depth: depth_range(0.0, high - low + 2.0 * margin),
         source: distant_source(inputs, 3)?,
+        warp: Vec4::ZERO,
     })
 }
 

@@ -8,7 +8,7 @@ use crate::plan::Space;
 use crate::render::RenderError;
 
 /// Part of a view's width that is added on each side, for filters that reach beyond what is seen.
-const BORDER: f32 = 0.03;
+pub(super) const BORDER: f32 = 0.03;
 
 /// Part of a split, at its far end, in which the next one takes over where they blend: the shader counts on it.
 const OVERLAP: f32 = 0.1;
@@ -51,6 +51,7 @@ pub(super) fn views(
             projection: Vec4::new(half.x.recip(), half.y.recip(), 0.0, 0.0),
             depth,
             source,
+            warp: Vec4::ZERO,
         });
         begin = if blend { end * (1.0 - OVERLAP) } else { end };
     }
@@ -67,11 +68,8 @@ pub(super) fn views(
 }
 
 /// The distances from the eye between which there is something to see.
-fn visible(around: Surroundings<'_>, reach: f32) -> (f32, f32) {
-    let depths = || around.bounds.corners.iter().flatten().map(|c| around.eye.depth(*c));
-    let (first, last) = around.eye.range;
-    let near = depths().fold(f32::INFINITY, f32::min).clamp(first, last);
-    let far = depths().fold(f32::NEG_INFINITY, f32::max).clamp(first, last);
+pub(super) fn visible(around: Surroundings<'_>, reach: f32) -> (f32, f32) {
+    let (near, far) = around.bounds.seen(around.eye).unwrap_or(around.eye.range);
     let far = if reach > 0.0 { far.min(reach) } else { far };
     (near, far.max(near * 1.001))
 }

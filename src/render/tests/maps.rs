@@ -5,7 +5,7 @@ use crate::module::{Address, SamplerSettings};
 use crate::plan::{Light, Map, Pass, PassKind, Space};
 
 const LIGHT_SPACE: &str =
-    "struct LightSpace { world_to_light: mat4x4f, projection: vec4f, depth: vec4f, source: vec4f }
+    "struct LightSpace { world_to_light: mat4x4f, projection: vec4f, depth: vec4f, source: vec4f, warp: vec4f }
 struct Object { world: mat4x4f }
 @group(0) @binding(0) var<uniform> light: LightSpace;
 @group(1) @binding(0) var<uniform> object: Object;
@@ -76,7 +76,7 @@ fn moment_passes() -> Vec<Pass> {
 /// A sun along -z over a ball of radius 2, with a map; `body` reads `map` and `space`.
 fn lit(passes: Vec<Pass>, declarations: &str, body: &str, ty: &str, settings: SamplerSettings) -> Compiled {
     let declarations = format!(
-        "struct LightSpace {{ world_to_light: mat4x4f, projection: vec4f, depth: vec4f, source: vec4f }}
+        "struct LightSpace {{ world_to_light: mat4x4f, projection: vec4f, depth: vec4f, source: vec4f, warp: vec4f }}
 @group(3) @binding(0) var<uniform> space: LightSpace;
 {declarations}
 fn map_place(world: vec3f) -> vec3f {{
