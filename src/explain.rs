@@ -221,6 +221,11 @@ const OWN: &[(&str, &str, &str)] = &[
     ("ST0518", "A file is not in canonical form.", "`shadetree fmt FILE` rewrites it. Its meaning does not change."),
     ("ST0519", "Changes of files cannot be watched.", "The system's limit of watched folders may be reached."),
     (
+        "ST0520",
+        "There is no truth to be had of this light.",
+        "`--reference` must know where the light is: from the inputs that its node's `space:` line names, as values, not\nlinks. `--reference pcf` also needs a shadow on it, whose options `size`, `width`, `weights` and `taps` say what the\nfilter is; `--kernel WIDTH` says the width where `width` is no number.",
+    ),
+    (
         "ST0900",
         "naga rejects the WGSL that was woven.",
         "If the place is a node of your own (a `custom` node, or a file in --nodes DIR), its WGSL is at fault: the notes\nshow the line. Otherwise this is a fault in shadetree; please report it with the graph.",

@@ -21,6 +21,10 @@ mod render;
 mod settings;
 #[cfg(feature = "render")]
 mod stage;
+#[cfg(feature = "render")]
+mod truth;
+#[cfg(feature = "render")]
+mod truth_light;
 mod watch;
 mod weave;
 

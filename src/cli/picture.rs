@@ -4,6 +4,8 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
+use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+
 use super::assets::{each_mesh, environment_image, picture};
 use super::context::Context;
 use super::exit::{Exit, Failure, Outcome};
@@ -15,7 +17,8 @@ use super::stage;
 use super::weave::{Input, Shader, Weaver};
 use crate::compile::{NamedGraph, Options, Output};
 use crate::diagnostic::{Diagnostic, Place};
-use crate::render::{self, ColorFormat, Draw, Gpu, Job, Picture, RenderError, Surroundings, SurroundingsLevel, Texels};
+use crate::render::image_file::{Display, ToneCurve, encode_exr, encode_png};
+use crate::render::{ColorFormat, Draw, Gpu, Job, Picture, RenderError, Surroundings, SurroundingsLevel, Texels};
 use crate::scene::{Environment, Scene, environment};
 use crate::weave::light_called;
 
@@ -46,7 +49,6 @@ pub(super) fn once(command: &Render, context: &Context, loader: &Loader, gpu: &m
             });
         }
     }
-    let exr = command.output.extension().is_some_and(|e| e.eq_ignore_ascii_case("exr"));
     let images = |path: &str, base: &str| image(loader, path, base);
     let job = Job {
         draws,
@@ -56,9 +58,9 @@ pub(super) fn once(command: &Render, context: &Context, loader: &Loader, gpu: &m
         samples: if command.samples == Samples::Four { 4 } else { 1 },
         time: 0.0,
         images: &images,
-        output: if exr { ColorFormat::Float } else { ColorFormat::Half },
+        output: if is_exr(command) { ColorFormat::Float } else { ColorFormat::Half },
     };
-    let progress = progress(context);
+    let progress = late(context, "rendering", None);
     let result = draw(command, context, &job, gpu);
     progress.finish_and_clear();
     // A lost device is opened anew on the next run of --watch.
@@ -66,23 +68,38 @@ pub(super) fn once(command: &Render, context: &Context, loader: &Loader, gpu: &m
     for message in messages {
         context.say(&message);
     }
-    let notes =
-        [("Software".to_owned(), format!("shadetree {}", env!("CARGO_PKG_VERSION"))), ("Adapter".into(), adapter)];
-    let bytes = match exr {
-        true => render::image_file::encode_exr(size, &pixels, &notes),
-        false => {
-            let tone = match command.aov {
-                Aov::Output(Output::Radiance) => render::image_file::ToneCurve::Filmic,
-                _ => render::image_file::ToneCurve::None,
-            };
-            let display = render::image_file::Display { tone, ..Default::default() };
-            render::image_file::encode_png(size, &pixels, &display, &notes)
-        }
+    let tone = match command.aov {
+        Aov::Output(Output::Radiance) => ToneCurve::Filmic,
+        _ => ToneCurve::None,
+    };
+    save(command, context, size, &pixels, tone, ("Adapter", &adapter))?;
+    Ok(Exit::Done)
+}
+
+/// Writes a picture in the form that its name asks for, with a note on how it was made.
+pub(super) fn save(
+    command: &Render,
+    context: &Context,
+    size: (u32, u32),
+    pixels: &[[f32; 4]],
+    tone: ToneCurve,
+    (keyword, note): (&str, &str),
+) -> Result<(), Failure> {
+    let software = format!("shadetree {}", env!("CARGO_PKG_VERSION"));
+    let notes = [("Software".to_owned(), software), (keyword.to_owned(), note.to_owned())];
+    let bytes = if is_exr(command) {
+        encode_exr(size, pixels, &notes)
+    } else {
+        encode_png(size, pixels, &Display { tone, ..Display::default() }, &notes)
     };
     let bytes = bytes.map_err(|e| failure(RenderError::Job(e.to_string())))?;
     output::write(&command.output, &bytes)?;
     context.detail(&format!("wrote {}", command.output.display()));
-    Ok(Exit::Done)
+    Ok(())
+}
+
+fn is_exr(command: &Render) -> bool {
+    command.output.extension().is_some_and(|e| e.eq_ignore_ascii_case("exr"))
 }
 
 type Drawn = ((u32, u32), Vec<[f32; 4]>, String, Vec<String>);
@@ -200,18 +217,24 @@ fn image(loader: &Loader, path: &str, base: &str) -> Result<Picture, String> {
     Ok(Picture { width, height, texels })
 }
 
-/// A spinner that appears when rendering takes longer than two seconds.
-fn progress(context: &Context) -> indicatif::ProgressBar {
+/// A bar, or a spinner where it is not known how much there is to do, that appears when that takes longer than two
+/// seconds.
+pub(super) fn late(context: &Context, message: &'static str, steps: Option<u64>) -> ProgressBar {
     if !context.draws_progress() {
-        return indicatif::ProgressBar::hidden();
+        return ProgressBar::hidden();
     }
-    let target = indicatif::ProgressDrawTarget::hidden();
-    let bar = indicatif::ProgressBar::with_draw_target(None, target).with_message("rendering");
+    let bar = ProgressBar::with_draw_target(steps, ProgressDrawTarget::hidden()).with_message(message);
+    // A template that cannot be read leaves the usual style.
+    if steps.is_some()
+        && let Ok(style) = ProgressStyle::with_template("{msg} {wide_bar} {percent:>3}% {eta}")
+    {
+        bar.set_style(style);
+    }
     let late = bar.downgrade();
     std::thread::spawn(move || {
         std::thread::sleep(Duration::from_secs(2));
         if let Some(bar) = late.upgrade().filter(|b| !b.is_finished()) {
-            bar.set_draw_target(indicatif::ProgressDrawTarget::stderr());
+            bar.set_draw_target(ProgressDrawTarget::stderr());
             bar.enable_steady_tick(Duration::from_millis(120));
         }
     });

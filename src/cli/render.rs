@@ -15,6 +15,7 @@ use super::settings::Assignment;
   shadetree render spot_vsm.ron bumpy_glass.ron -o glass.png      # on a ball over a ground
   shadetree render matte.ron --scene graphs/scenes/car.ron -o matte_car.png
   shadetree render graphs/scenes/car.ron --aov visibility:key -o shadow.exr --size 512x512
+  shadetree render graphs/scenes/car.ron --aov visibility:spot --reference pcf -o truth.png   # needs no adapter
   shadetree render graphs/scenes/car.ron -o car.png --set spot.range=20 --adapter cpu --watch")]
 pub(super) struct Render {
     /// Graph files, woven together by type; or one scene file; `-` is stdin
@@ -32,6 +33,16 @@ pub(super) struct Render {
     /// What to show: radiance, normal, depth, visibility:LIGHT, irradiance:LIGHT, map:LIGHT
     #[arg(long, default_value = "radiance", value_name = "NAME", value_parser = aov)]
     pub(super) aov: Aov,
+    /// Compute visibility:LIGHT as it ought to be, in float64: by rays, or by filtering a map that is many times finer with
+    /// the filter of the light's shadow. One sample a pixel; adapters and surfaces have no part in it
+    #[arg(long, value_enum, value_name = "HOW")]
+    pub(super) reference: Option<Reference>,
+    /// Rays a pixel (default 256), or fine texels along a texel of the map (2 to 64, default 8)
+    #[arg(long, value_name = "N", requires = "reference", value_parser = clap::value_parser!(u32).range(1..=1_048_576))]
+    pub(super) reference_samples: Option<u32>,
+    /// Texels across the filter of `--reference pcf`, rather than what the shadow says
+    #[arg(long, value_name = "WIDTH", requires = "reference", value_parser = clap::value_parser!(u32).range(1..=64))]
+    pub(super) kernel: Option<u32>,
     /// Give a port another value
     #[arg(long, value_name = "NODE.PORT=VALUE")]
     pub(super) set: Vec<Assignment>,
@@ -50,6 +61,15 @@ pub(super) struct Render {
     /// Render again whenever a file changes
     #[arg(long)]
     pub(super) watch: bool,
+}
+
+/// How the truth is found.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(super) enum Reference {
+    /// Percentage-closer filtering of every texel of a finer map.
+    Pcf,
+    /// Rays to all parts of the light.
+    Rays,
 }
 
 /// Samples per pixel.
@@ -105,6 +125,10 @@ impl Render {
                 "name the picture with one of these extensions",
             ));
         }
+        if self.reference == Some(Reference::Pcf) && self.reference_samples.is_some_and(|n| !(2..=64).contains(&n)) {
+            let help = "take rays for more samples, or a wider --kernel for more blur";
+            return Err(Failure::usage("--reference pcf takes 2 to 64 fine texels along a texel", help));
+        }
         self.start(context)
     }
 
@@ -120,6 +144,9 @@ impl Render {
     fn start(&self, context: &Context) -> Outcome {
         let gpu = std::cell::RefCell::new(None);
         super::watch::watch(context, self.watch, &self.files, |loader| {
+            if self.reference.is_some() {
+                return super::truth::once(self, context, loader);
+            }
             super::picture::once(self, context, loader, &mut gpu.borrow_mut())
         })
     }

@@ -25,7 +25,7 @@ pub use fine_map::{Filter, FineMap};
 pub use footprint::filter_below;
 pub use kernel::{Weights, box_ramp, edge_visibility, gaussian_ramp, kernel};
 pub use layers::{Layer, Layers, Taps};
-pub use light::Light;
+pub use light::{Choice, Light};
 pub use ray::Ray;
 pub use rays::Estimate;
 pub use source::Source;

@@ -194,7 +194,7 @@ mod tests {
             let seen: Vec<_> = (0..).zip(seen).filter_map(|(i, p)| Some((i, p?))).collect();
             // 8 m of ground in the 12 m that are seen across.
             assert!((300..400).contains(&seen.len()), "{}", seen.len());
-            let down = [vec![0.0, -1.0, 0.0], vec![0.0; 3], vec![5.0]];
+            let down = [vec![0.0, -1.0, 0.0], vec![0.0; 3], vec![5.0], vec![0.0]];
             let light = Light::projected("orthographic", &down, &world).expect("a sun");
             for method in [Method::Rays(16), Method::Filter(&filter)] {
                 let lit = visibility(&world, &light, method, &seen, 32, watch).expect("not cancelled");
@@ -206,7 +206,7 @@ mod tests {
                     lit[middle]
                 );
             }
-            let narrow = [vec![0.0, 5.0, 0.0], vec![0.0, -1.0, 0.0], vec![0.1], vec![0.1], vec![9.0]];
+            let narrow = [vec![0.0, 5.0, 0.0], vec![0.0, -1.0, 0.0], vec![0.1], vec![0.1], vec![9.0], vec![0.0]];
             let light = Light::projected("perspective", &narrow, &world).expect("a spot light");
             let lit = visibility(&world, &light, Method::Rays(16), &seen, 32, watch).expect("not cancelled");
             assert!(lit[0].mean == 1.0, "outside the cone");

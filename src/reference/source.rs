@@ -10,6 +10,13 @@ pub enum Source {
         /// Where it is.
         position: DVec3,
     },
+    /// A ball, as bright from everywhere: a disc that faces whoever looks.
+    Ball {
+        /// Its middle.
+        center: DVec3,
+        /// Its radius, metres.
+        radius: f64,
+    },
     /// A disc.
     Disc {
         /// Its middle.
@@ -40,7 +47,7 @@ impl Source {
     pub fn is_sharp(&self) -> bool {
         match *self {
             Self::Point { .. } => true,
-            Self::Disc { radius, .. } => radius == 0.0,
+            Self::Ball { radius, .. } | Self::Disc { radius, .. } => radius == 0.0,
             Self::Rectangle { half, .. } => half == [DVec3::ZERO; 2],
             Self::Distant { angle, .. } => angle == 0.0,
         }
@@ -51,6 +58,15 @@ impl Source {
     pub fn towards(&self, point: DVec3, place: DVec2) -> DVec3 {
         match *self {
             Self::Point { position } => position - point,
+            Self::Ball { center, radius } => {
+                let axis = center - point;
+                let distance = axis.length();
+                // From inside there is no outline; what is nearer than the middle stands in the light.
+                let Some(unit) = axis.try_normalize().filter(|_| distance > radius) else { return axis };
+                let ray = cap(unit, (radius / distance).asin(), place);
+                // To the plane through the middle that faces the point.
+                ray * (distance / ray.dot(unit))
+            }
             Self::Disc { center, normal, radius } => {
                 let [x, y] = beside(normal.normalize_or(DVec3::Y));
                 let at = disc(place) * radius;
@@ -60,16 +76,7 @@ impl Source {
                 let at = place * 2.0 - 1.0;
                 center + u * at.x + v * at.y - point
             }
-            Self::Distant { direction, angle } => {
-                let axis = -direction.normalize_or(DVec3::NEG_Y);
-                let [x, y] = beside(axis);
-                // Equal areas of the disc to equal areas of the cap: 1 - cosine grows with the square of the radius.
-                let at = disc(place);
-                let cosine = 1.0 - at.length_squared() * (1.0 - angle.cos());
-                let sine = (1.0 - cosine * cosine).max(0.0).sqrt();
-                let around = at.normalize_or_zero() * sine;
-                axis * cosine + x * around.x + y * around.y
-            }
+            Self::Distant { direction, angle } => cap(-direction.normalize_or(DVec3::NEG_Y), angle, place),
         }
     }
 
@@ -77,6 +84,17 @@ impl Source {
     pub fn is_near(&self) -> bool {
         !matches!(self, Self::Distant { .. })
     }
+}
+
+/// A unit vector within an angle (radians) of another: equal areas of the unit square to equal areas of the cap.
+fn cap(axis: DVec3, angle: f64, place: DVec2) -> DVec3 {
+    let [x, y] = beside(axis);
+    // 1 - cosine grows with the square of the radius, as areas do on both; 1 - cos a = 2 sin^2(a / 2).
+    let at = disc(place);
+    let lost = at.length_squared() * 2.0 * (angle / 2.0).sin().powi(2);
+    let sine = (lost * (2.0 - lost)).max(0.0).sqrt();
+    let around = at.normalize_or_zero() * sine;
+    axis * (1.0 - lost) + x * around.x + y * around.y
 }
 
 /// Two unit vectors at right angles to a unit vector and to each other.
@@ -175,6 +193,16 @@ mod tests {
             let at = disc.towards(point, spread(i, 7)) + point - center;
             assert!(at.y.abs() < 1e-12 && at.length() <= 0.5 + 1e-12);
         }
+        let ball = Source::Ball { center, radius: 0.5 };
+        let distance = point.distance(center);
+        for i in 0..100 {
+            // Every ray touches or cuts the ball, and ends beside its middle.
+            let ray = ball.towards(point, spread(i, 9));
+            let along = ray.normalize().dot(center - point);
+            assert!((distance * distance - along * along).max(0.0).sqrt() <= 0.5 + 1e-9);
+            assert!(((point + ray - center).dot(center - point)).abs() < 1e-9);
+        }
+        assert_eq!(ball.towards(center + DVec3::X * 0.1, DVec2::splat(0.3)), DVec3::X * -0.1);
         assert!(Source::Point { position: center }.is_sharp() && !disc.is_sharp() && !rectangle.is_sharp());
     }
 }

@@ -1,0 +1,91 @@
+//! What the truth needs to know of a light and of the shadows on it, from the wiring of its graph.
+
+use super::context::Context;
+use super::exit::Failure;
+use super::render::Render;
+use super::truth::no_truth;
+use crate::module::stored;
+use crate::reference::{Filter, Light, Taps, Weights, World, kernel};
+use crate::weave::{Node, Root, Wire, Woven};
+
+/// Finest map that is looked at, in fine texels along a texel, where the command line does not say.
+const FACTOR: u32 = 8;
+
+/// The light whose visibility is wanted, from the values of the inputs that its `space:` line names.
+pub(super) fn light(woven: &Woven, world: &World) -> Result<Light, Failure> {
+    let (node, _) = wanted(woven)?;
+    let fail = |message: String, help: &str| no_truth(message, help, node.place.clone());
+    let Some(space) = &node.definition.header.space else {
+        let message = format!("it is not known where the light `{}` shines from", node.id);
+        return Err(fail(message, "take a light node that has a `space:` line, such as `spot_light`"));
+    };
+    let mut inputs = Vec::new();
+    for name in space.inputs_of(&node.definition) {
+        let port = node.definition.input(name);
+        let (Some(Wire::Value(value)), Some(port)) = (node.inputs.get(name), port) else {
+            let message = format!("`{name}` of the light `{}` comes from a link", node.id);
+            return Err(fail(message, "the place of a light must be values: set it under `params`"));
+        };
+        inputs.push(stored(value, &port.ty.shape, &port.unit));
+    }
+    let message = |m: String| format!("the light `{}`: {m}", node.id);
+    Light::projected(&space.projection, &inputs, world).map_err(|m| {
+        fail(message(m), "the inputs named by the `space:` line of the light must be numbers that make sense")
+    })
+}
+
+/// The filter of the first shadow on that light, from what its options named `size`, `width`, `weights` and `taps` say,
+/// and the command line.
+pub(super) fn filter(woven: &Woven, command: &Render, context: &Context) -> Result<Filter, Failure> {
+    let (light, shadows) = wanted(woven)?;
+    let Some(shadow) = shadows.first() else {
+        let message = format!("the light `{}` has no shadow whose filter could be judged", light.id);
+        return Err(no_truth(message, "link a shadow behind it, or use --reference rays", light.place.clone()));
+    };
+    if shadows.len() > 1 {
+        context.say(&format!("`{}` has {} shadows; the filter is that of `{}`", light.id, shadows.len(), shadow.id));
+    }
+    let choices = &shadow.definition.choices;
+    let option = |name: &str| choices.iter().find(|(n, _)| n == name).map(|(_, choice)| choice.as_str());
+    let number = |name: &str, otherwise: u32| match option(name).map(str::parse) {
+        None => Ok(otherwise),
+        Some(Ok(number)) => Ok(number),
+        Some(Err(_)) => {
+            let message = format!("the option `{name}` of `{}` is not a number", shadow.id);
+            Err(no_truth(message, "give the width with --kernel", shadow.place.clone()))
+        }
+    };
+    let width = match command.kernel {
+        Some(width) => width,
+        None => number("width", 1)?,
+    };
+    let weights = option("weights").and_then(|name| Weights::ALL.iter().find(|(n, _)| *n == name));
+    let taps = match option("taps") {
+        Some("nearest") => Taps::Nearest,
+        Some(_) => Taps::Bilinear,
+        // Filtered maps are read with interpolation; those without a filter are not.
+        None => {
+            if width > 1 {
+                Taps::Bilinear
+            } else {
+                Taps::Nearest
+            }
+        }
+    };
+    Ok(Filter {
+        kernel: kernel(weights.map_or(Weights::Box, |w| w.1), width as usize),
+        taps,
+        size: number("size", 1024)?,
+        factor: command.reference_samples.unwrap_or(FACTOR),
+    })
+}
+
+/// The light that is wanted and the shadows on it.
+fn wanted(woven: &Woven) -> Result<(&Node, Vec<&Node>), Failure> {
+    match &woven.root {
+        Root::Visibility { light, shadows } => {
+            Ok((&woven.nodes[*light], shadows.iter().map(|s| &woven.nodes[*s]).collect()))
+        }
+        _ => Err(Vec::new().into()),
+    }
+}
