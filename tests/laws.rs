@@ -3,6 +3,7 @@
 mod adapters;
 mod lamp;
 mod lights;
+mod percentage;
 mod planar;
 mod splits;
 mod surfaces;

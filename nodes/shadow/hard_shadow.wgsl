@@ -3,8 +3,9 @@
 //! synonyms: shadow map, sharp shadow, unfiltered shadow
 //! use: light_space
 //! Shadow by one comparison with the nearest texel of a depth map (Williams 1978): cheap, with stairs at the edges. The comparison is with the receiving plane at that texel's centre, so no bias has to be tuned.
+//! option cull: none | front | back = none - Sides of triangles that are left out.
 //! option size: 256 | 512 | 1024 | 2048 | 4096 = 2048 - Texels on a side of the map.
-//! map map: depth(size=$size)
+//! map map: depth(size=$size, cull=$cull)
 //! sampler map_sampler: compare=on filter=nearest address=clamp
 
 /// point (point world; = @position_world; hidden): The shaded point.

@@ -1,13 +1,15 @@
 //! label: PCF shadow
 //! category: shadow
-//! synonyms: percentage closer filtering, soft shadow, filtered shadow
-//! use: light_space, kernel
-//! Shadow by comparing many texels of a depth map and averaging the results (Reeves, Salesin and Cook 1987). Every comparison is with the receiving plane at that texel, so no bias has to be tuned however wide the kernel.
-//! option width: 1 | 3 | 5 | 7 = 5 - Texels across the kernel.
+//! synonyms: percentage closer filtering, soft shadow, filtered shadow, bilinear shadow, smooth shadow map, hardware pcf, comparison sampler, reeves
+//! use: receiver, kernel
+//! Shadow by comparing many texels of a depth map and averaging the results (Reeves, Salesin and Cook 1987). Every comparison is with the receiving plane at that texel, so no bias has to be tuned however wide the kernel. Width 1 is the bilinear blend of four comparisons, in the shader (bilinear) or by a comparison sampler (hardware).
+//! option width: 1 | 3 | 5 | 7 | 9 = 5 - Texels across the kernel.
 //! option weights: gaussian | box | tent = gaussian - Shape of the kernel.
 //! option taps: nearest | bilinear | hardware = bilinear - How a tap reads: the nearest texel (stairs), four texels blended after exact comparisons, or four blended by the sampler with one biased comparison.
+//! option compare: plane | point | offset = plane - With what a texel is compared: the receiving plane there; the shaded point itself, which needs a bias of half a kernel of slope; or the shaded point moved along its normal by that much. The last two follow no plane beyond the shaded point, for surfaces that are broken up within a kernel (leaves, hair, wire).
+//! option cull: none | front | back = none - Sides of triangles that are left out.
 //! option size: 256 | 512 | 1024 | 2048 | 4096 = 2048 - Texels on a side of the map.
-//! map map: depth(size=$size)
+//! map map: depth(size=$size, cull=$cull)
 //! sampler map_sampler: compare=on filter=nearest address=clamp
 //! sampler blending_sampler: compare=on filter=linear address=clamp
 
@@ -23,7 +25,14 @@ const WIDTH: i32 = 5;
 //#else
 /// map_sampler (sampler; hidden): Compares with one texel.
 //#end
+//#if compare == plane
 /// bias (distance; = 0; 0..; in m): Extra distance by which an occluder must be nearer to the light, for surfaces that the plane does not describe.
+//#elif compare == point
+/// bias (distance; = 0.05; 0..; in m): Distance by which an occluder must be nearer to the light. A slope of (u, v) metres per texel needs (u + v) times half the kernel's width (half a texel more with blended taps); shadows detach by as much.
+//#else
+/// bias (distance; = 0; 0..; in m): Extra distance by which an occluder must be nearer to the light.
+/// offset (number; = 1.5; 0..): How far the point is moved along its normal, in half kernels times the sine of the angle to the light. From the square root of 2 on, no slope shadows itself.
+//#end
 /// receives (scalar; = @receives; hidden): 0 where the object takes no shadows.
 /// -> visibility (scalar visibility): 1 lit, 0 in shadow.
 fn pcf_shadow(
@@ -36,27 +45,41 @@ fn pcf_shadow(
     map_sampler: sampler_comparison,
 //#end
     bias: f32,
+//#if compare == offset
+    offset: f32,
+//#end
     receives: f32,
 ) -> f32 {
-    let normal = geometric_normal(point);
-    let position = light_position(space, point);
-    let layer = light_layer(space);
-    let plane = receiver_plane(space, position, normal);
     let size = vec2f(textureDimensions(map));
+    let layer = light_layer(space);
 //#if width == 1
 //#if taps == nearest
-    let curvature = receiver_curvature(space, plane, size, 0.5);
+    let reach = 0.5;
 //#else
-    let curvature = receiver_curvature(space, plane, size, 1.0);
+    let reach = 1.0;
 //#end
 //#else
 //#if taps == nearest
-    let curvature = receiver_curvature(space, plane, size, 0.5 * f32(WIDTH));
+    let reach = 0.5 * f32(WIDTH);
 //#else
-    let curvature = receiver_curvature(space, plane, size, 0.5 * f32(WIDTH) + 0.5);
+    let reach = 0.5 * f32(WIDTH) + 0.5;
 //#end
 //#end
-    let margin = bias * space.depth.z + receiver_rounding(receiver_slope(space, plane) / size) + curvature;
+//#if compare == plane
+    let position = light_position(space, point);
+    let plane = receiver_plane(space, position, geometric_normal(point));
+    let rounding = receiver_rounding(receiver_slope(space, plane) / size);
+    let margin = bias * space.depth.z + rounding + receiver_curvature(space, plane, size, reach);
+//#elif compare == point
+    let position = light_position(space, point);
+    let plane = facing_receiver(space, position);
+    let margin = bias * space.depth.z + receiver_rounding(vec2f(0.0));
+//#else
+    let moved = receiver_offset(space, light_position(space, point), geometric_normal(point), size, offset * reach);
+    let position = light_position(space, point) + moved;
+    let plane = facing_receiver(space, position);
+    let margin = bias * space.depth.z + receiver_rounding(vec2f(0.0));
+//#end
 //#if taps == hardware
     // The sampler compares one depth with four texels, whose centres lie up to a texel to each side: the depth is taken
     // a texel away, where the plane is nearest to the light.

@@ -30,7 +30,7 @@ fn filtered_comparison_variance_and_the_closed_form_agree_on_a_straight_edge() {
             for width in [1, 3, 5, 7, 9, 11] {
                 let kernel = kernel(weights, width);
                 let variance = vsm(lamp, name, width, PLAIN);
-                let compared = (width <= 7).then(|| pcf(lamp, name, width, "bilinear"));
+                let compared = (width <= 9).then(|| pcf(lamp, name, width, "bilinear"));
                 for edge in [4.0, 4.3] {
                     let what = format!("{name} {width}, edge {edge}");
                     let stage = under(lamp, &half_plane(edge, 0.0), 16.0, (320, 2));
@@ -62,7 +62,9 @@ fn a_turned_edge_is_filtered_as_in_float64() {
             let plates = half_plane(edge, angle);
             let truth = layers(lamp, &plates);
             let stage = under(lamp, &plates, 24.0, (96, 24));
-            for (width, weights) in [(1, Weights::Box), (3, Weights::Tent), (5, Weights::Gaussian), (7, Weights::Box)] {
+            for (width, weights) in
+                [(1, Weights::Box), (3, Weights::Tent), (5, Weights::Gaussian), (7, Weights::Box), (9, Weights::Tent)]
+            {
                 let name = Weights::ALL.iter().find(|(_, w)| *w == weights).expect("listed").0;
                 let kernel = kernel(weights, width);
                 let compared = stage.look(&mut gpu, &pcf(lamp, name, width, "bilinear"));
@@ -94,7 +96,7 @@ fn nearest_taps_and_the_hard_shadow_make_stairs() {
         let plates = half_plane(4.3, 0.0);
         let truth = layers(lamp, &plates);
         let stage = under(lamp, &plates, 12.0, (300, 2));
-        for width in [1, 3, 5, 7] {
+        for width in [1, 3, 5, 7, 9] {
             let shader =
                 if width == 1 { lamp.shadow("hard_shadow", "", "") } else { pcf(lamp, "box", width, "nearest") };
             let values = stage.look(&mut gpu, &shader);
@@ -119,7 +121,7 @@ fn nearest_taps_and_the_hard_shadow_make_stairs() {
 fn hardware_taps_agree_with_taps_in_the_shader() {
     let Some(mut gpu) = gpu() else { return };
     for lamp in Lamp::BOTH {
-        for width in [1, 3, 5, 7] {
+        for width in [1, 3, 5, 7, 9] {
             let stage = under(lamp, &half_plane(4.3, 0.2), 16.0, (160, 8));
             let shader = stage.look(&mut gpu, &pcf(lamp, "gaussian", width, "bilinear"));
             let sampler = stage.look(&mut gpu, &pcf(lamp, "gaussian", width, "hardware"));

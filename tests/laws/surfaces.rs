@@ -55,7 +55,7 @@ fn comparisons_do_not_darken_lit_slopes() {
         check("hard_shadow", "\"size\": \"256\"");
         check("pcf_shadow", "");
         for taps in ["nearest", "bilinear", "hardware"] {
-            for width in [1, 3, 5, 7] {
+            for width in [1, 3, 5, 7, 9] {
                 check("pcf_shadow", &format!("\"size\": \"256\", \"width\": \"{width}\", \"taps\": \"{taps}\""));
             }
         }

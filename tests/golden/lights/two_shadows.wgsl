@@ -204,13 +204,13 @@ fn pcf_shadow(
     bias: f32,
     receives: f32,
 ) -> f32 {
-    let normal = geometric_normal(point);
-    let position = light_position(space, point);
-    let layer = light_layer(space);
-    let plane = receiver_plane(space, position, normal);
     let size = vec2f(textureDimensions(map));
-    let curvature = receiver_curvature(space, plane, size, 0.5 * f32(WIDTH) + 0.5);
-    let margin = bias * space.depth.z + receiver_rounding(receiver_slope(space, plane) / size) + curvature;
+    let layer = light_layer(space);
+    let reach = 0.5 * f32(WIDTH) + 0.5;
+    let position = light_position(space, point);
+    let plane = receiver_plane(space, position, geometric_normal(point));
+    let rounding = receiver_rounding(receiver_slope(space, plane) / size);
+    let margin = bias * space.depth.z + rounding + receiver_curvature(space, plane, size, reach);
     // Bilinear taps on a grid share their texels: each texel is compared once, with the kernel convolved with the tent.
     let corner = plane.uv * size - 0.5;
     let part = fract(corner);
