@@ -6,6 +6,7 @@
 //! Conventions: depth runs from 0 at the light's near plane to 1 at its far plane. Map positions are in texels, with
 //! texel (i, j) covering [i, i + 1) x [j, j + 1) and sampled at its centre. Visibility is the lit share, 1 or less.
 
+mod area;
 mod bvh;
 mod fine_map;
 mod footprint;
@@ -20,6 +21,7 @@ mod variance;
 mod view;
 mod world;
 
+pub use area::{Emitter, penumbra_scale, rectangle_irradiance};
 pub use bvh::Bvh;
 pub use fine_map::{Filter, FineMap};
 pub use footprint::filter_below;
