@@ -20,6 +20,26 @@ fn receiver_offset(space: LightSpace, position: vec3f, normal: vec3f, size: vec2
     return n * (select(1.0, -1.0, cosine < 0.0) * texels * max(texel.x, texel.y) * sine);
 }
 
+/// What z / w and radial depth are known to: two steps of float32 below 1, from the stored and from the compared value.
+const METRIC_ROUNDING: f32 = 2.4e-7;
+
+/// Where the light's ray through `uv` meets the plane (light coordinates), `margin` of linear depth nearer to the light.
+fn receiver_nearer(space: LightSpace, plane: ReceiverPlane, uv: vec2f, margin: f32) -> vec3f {
+    let distance = receiver_distance(space, plane, uv) - margin / space.depth.z;
+    let ray = (uv - 0.5) * vec2f(2.0, -2.0) / space.projection.xy;
+    return vec3f(ray * select(1.0, distance, space.projection.z > 0.5), distance);
+}
+
+/// `receiver_depth_zw` with a margin of linear depth.
+fn receiver_depth_zw_less(space: LightSpace, plane: ReceiverPlane, uv: vec2f, margin: f32) -> f32 {
+    return saturate(light_depth_zw(space, receiver_nearer(space, plane, uv, margin))) - METRIC_ROUNDING;
+}
+
+/// `receiver_depth_radial` with a margin of linear depth.
+fn receiver_depth_radial_less(space: LightSpace, plane: ReceiverPlane, uv: vec2f, margin: f32) -> f32 {
+    return saturate(light_depth_radial(space, receiver_nearer(space, plane, uv, margin))) - METRIC_ROUNDING;
+}
+
 /// By how much of the range of depth an occluder must be nearer to the light than the plane of the receiver.
 struct ReceiverMargin {
     /// Everywhere.

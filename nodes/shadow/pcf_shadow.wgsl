@@ -7,9 +7,10 @@
 //! option weights: gaussian | box | tent = gaussian - Shape of the kernel.
 //! option taps: nearest | bilinear | hardware = bilinear - How a tap reads: the nearest texel (stairs), four texels blended after exact comparisons, or four blended by the sampler with one biased comparison.
 //! option compare: plane | point | offset = plane - With what a texel is compared: the receiving plane there; the shaded point itself, which needs a bias of half a kernel of slope; or the shaded point moved along its normal by that much. The last two follow no plane beyond the shaded point, for surfaces that are broken up within a kernel (leaves, hair, wire).
+//! option metric: linear | zw | radial = linear - How depth is measured: evenly along the light's axis, as projection matrices leave it, or by the distance from the light. All are linear in parallel light.
 //! option cull: none | front | back = none - Sides of triangles that are left out.
 //! option size: 256 | 512 | 1024 | 2048 | 4096 = 2048 - Texels on a side of the map.
-//! map map: depth(size=$size, cull=$cull)
+//! map map: depth(size=$size, metric=$metric, cull=$cull)
 //! sampler map_sampler: compare=on filter=nearest address=clamp
 //! sampler blending_sampler: compare=on filter=linear address=clamp
 
@@ -19,7 +20,7 @@ const WIDTH: i32 = 5;
 //#end
 /// point (point world; = @position_world; hidden): The shaded point.
 /// space (space; hidden): The light's space.
-/// map (map; hidden): Linear depth of the nearest surface.
+/// map (map; hidden): Depth of the nearest surface.
 //#if taps == hardware
 /// blending_sampler (sampler; hidden): Compares with four texels and blends the results.
 //#else
@@ -94,16 +95,16 @@ fn pcf_shadow(
     let uv_10 = texel + vec2f(next.x, 0.0);
     let uv_01 = texel + vec2f(0.0, next.y);
     let uv_11 = texel + next;
-    let lit_00 = textureSampleCompareLevel(map, map_sampler, texel, layer, receiver_depth(space, plane, texel) - margin);
-    let lit_10 = textureSampleCompareLevel(map, map_sampler, uv_10, layer, receiver_depth(space, plane, uv_10) - margin);
-    let lit_01 = textureSampleCompareLevel(map, map_sampler, uv_01, layer, receiver_depth(space, plane, uv_01) - margin);
-    let lit_11 = textureSampleCompareLevel(map, map_sampler, uv_11, layer, receiver_depth(space, plane, uv_11) - margin);
+    let lit_00 = textureSampleCompareLevel(map, map_sampler, texel, layer, compared_at(space, plane, texel, margin));
+    let lit_10 = textureSampleCompareLevel(map, map_sampler, uv_10, layer, compared_at(space, plane, uv_10, margin));
+    let lit_01 = textureSampleCompareLevel(map, map_sampler, uv_01, layer, compared_at(space, plane, uv_01, margin));
+    let lit_11 = textureSampleCompareLevel(map, map_sampler, uv_11, layer, compared_at(space, plane, uv_11, margin));
     let visibility = mix(mix(lit_00, lit_10, part.x), mix(lit_01, lit_11, part.x), part.y);
 //#elif taps == nearest
     let uv = (floor(plane.uv * size) + 0.5) / size;
-    let visibility = textureSampleCompareLevel(map, map_sampler, uv, layer, receiver_depth(space, plane, uv) - margin);
+    let visibility = textureSampleCompareLevel(map, map_sampler, uv, layer, compared_at(space, plane, uv, margin));
 //#else
-    let depth = receiver_depth(space, plane, plane.uv + nearer) - margin;
+    let depth = compared_at(space, plane, plane.uv + nearer, margin);
     let visibility = textureSampleCompareLevel(map, blending_sampler, plane.uv, layer, depth);
 //#end
 //#else
@@ -156,10 +157,10 @@ fn pcf_shadow(
 //#end
             let uv = (first + vec2f(f32(x + WIDTH / 2), f32(y + WIDTH / 2))) / size;
 //#if taps == hardware
-            let depth = receiver_depth(space, plane, uv + nearer) - margin;
+            let depth = compared_at(space, plane, uv + nearer, margin);
             sum += weight * textureSampleCompareLevel(map, blending_sampler, uv, layer, depth);
 //#else
-            let depth = receiver_depth(space, plane, uv) - margin;
+            let depth = compared_at(space, plane, uv, margin);
             sum += weight * textureSampleCompareLevel(map, map_sampler, uv, layer, depth);
 //#end
             total += weight;
@@ -169,3 +170,18 @@ fn pcf_shadow(
 //#end
     return select(visibility, 1.0, receives < 0.5 || outside_light_map(space, position, plane.uv));
 }
+
+/// Depth that the texel at `uv` must not be nearer than; the margin is in linear depth.
+//#if metric == linear
+fn compared_at(space: LightSpace, plane: ReceiverPlane, uv: vec2f, margin: f32) -> f32 {
+    return receiver_depth(space, plane, uv) - margin;
+}
+//#elif metric == zw
+fn compared_at(space: LightSpace, plane: ReceiverPlane, uv: vec2f, margin: f32) -> f32 {
+    return receiver_depth_zw_less(space, plane, uv, margin);
+}
+//#else
+fn compared_at(space: LightSpace, plane: ReceiverPlane, uv: vec2f, margin: f32) -> f32 {
+    return receiver_depth_radial_less(space, plane, uv, margin);
+}
+//#end

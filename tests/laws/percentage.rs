@@ -7,6 +7,7 @@ use shadetree::render::{Gpu, LightSpace};
 use shadetree::scene::Shape;
 
 use super::lamp::{CLOSED_FORM, sampled};
+use super::planar::worst;
 use crate::stage::{Item, Stage, View, gpu, grain, light, visibility};
 
 /// The texel of a map of `side` that a point falls into, columns and rows from the upper left.
@@ -271,4 +272,69 @@ fn culled_sides_cast_no_shadow_and_take_none() {
         stage.look(&mut gpu, &shader).into_iter().fold(1.0, f64::min)
     };
     assert!(least("none") < 0.9 && least("back") < 0.9 && least("front") > 1.0 - 1e-6);
+}
+
+/// M17: a comparison does not care how depth is measured. The picture is that of linear depth, on every side of a cube too,
+/// and what a map holds is the metric of the plate: z / w, or the distance from the light.
+#[test]
+fn every_metric_of_depth_gives_the_same_shadow() {
+    let Some(mut gpu) = gpu() else { return };
+    let spot =
+        "\"position\": (0.1, 4, -0.07), \"direction\": (0, -1, 0), \"outer_angle\": 40, \"near\": 1, \"range\": 5";
+    let bulb = "\"position\": (0.1, 4, -0.07), \"near\": 1, \"range\": 5";
+    let stage = plate(0.31, 0.38, 0.5);
+    for (kind, lamp) in [("spot_light", spot), ("point_light", bulb), ("directional_light", SUN)] {
+        for (shadow, options) in [
+            ("hard_shadow", ""),
+            ("pcf_shadow", ", \"width\": \"1\""),
+            ("pcf_shadow", ", \"width\": \"9\", \"taps\": \"hardware\""),
+            ("pcf_shadow", ", \"width\": \"5\", \"compare\": \"point\""),
+        ] {
+            let shader = |metric: &str| {
+                let options = format!("\"size\": \"256\", \"metric\": \"{metric}\"{options}");
+                visibility(&light(kind, lamp, shadow, "", &options))
+            };
+            let linear = stage.look(&mut gpu, &shader("linear"));
+            for metric in ["zw", "radial"] {
+                let shader = shader(metric);
+                let values = stage.look(&mut gpu, &shader);
+                let off = worst(linear.iter().copied().zip(values));
+                assert!(off < CLOSED_FORM, "{kind} {shadow} {options} {metric}: {off}");
+                let map = gpu.map(&stage.job(&shader), "light/lamp", 0).expect("renders");
+                let side = f64::from(map.size.0);
+                let down = |s: &&LightSpace| s.world_to_light.row(2).y < -0.99;
+                let space = map.spaces.iter().find(down).expect("a view from above");
+                // The centre of the texel that sees the plate at (0, 1, 0).
+                let (column, row) = texel_of(space, side, DVec3::Y);
+                let (column, row) = (column.floor(), row.floor());
+                let layer = f64::from(space.projection.w) * side;
+                let stored = f64::from(map.pixels[((layer + row) * side + column) as usize][0]);
+                let ray = |t: f64, focal: f32| (2.0 * (t + 0.5) / side - 1.0) / f64::from(focal);
+                let across = DVec3::new(ray(column, space.projection.x), ray(row, space.projection.y), 1.0).length();
+                let expected = match (kind, metric) {
+                    ("directional_light", _) => continue,
+                    (_, "zw") => 5.0 / 4.0 * (1.0 - 1.0 / 3.0),
+                    _ => 3.0 * across / 5.0,
+                };
+                assert!((stored - expected).abs() < 1e-5, "{kind} {metric}: {stored} is not {expected}");
+            }
+        }
+    }
+}
+
+/// Two choices of one kind in one shader are two functions.
+#[test]
+fn shadows_of_several_metrics_fit_into_one_shader() {
+    let shadow = |metric: &str| {
+        format!("\"{metric}\": (kind: \"pcf_shadow\", options: {{\"metric\": \"{metric}\", \"width\": \"3\"}})")
+    };
+    let nodes = ["linear", "zw", "radial"].map(shadow).join(", ");
+    let graph = format!(
+        "Graph(version: 1, nodes: {{\"lamp\": (kind: \"spot_light\"), {nodes}}}, links: [\"lamp -> linear\", \"linear -> zw\", \"zw -> radial\"])"
+    );
+    let wgsl = visibility(&graph).module.wgsl;
+    assert!(
+        wgsl.contains("receiver_depth_zw_less(space") && wgsl.contains("receiver_depth_radial_less(space"),
+        "{wgsl}"
+    );
 }

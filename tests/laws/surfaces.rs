@@ -54,6 +54,11 @@ fn comparisons_do_not_darken_lit_slopes() {
         check("hard_shadow", "");
         check("hard_shadow", "\"size\": \"256\"");
         check("pcf_shadow", "");
+        for metric in ["zw", "radial"] {
+            check("hard_shadow", &format!("\"metric\": \"{metric}\""));
+            check("hard_shadow", &format!("\"metric\": \"{metric}\", \"size\": \"256\""));
+            check("pcf_shadow", &format!("\"metric\": \"{metric}\", \"size\": \"256\", \"width\": \"9\""));
+        }
         for taps in ["nearest", "bilinear", "hardware"] {
             for width in [1, 3, 5, 7, 9] {
                 check("pcf_shadow", &format!("\"size\": \"256\", \"width\": \"{width}\", \"taps\": \"{taps}\""));

@@ -217,13 +217,17 @@ fn pcf_shadow(
             let weight = mix(kernel_x, before_x, part.x) * weight_y;
             before_x = kernel_x;
             let uv = (first + vec2f(f32(x + WIDTH / 2), f32(y + WIDTH / 2))) / size;
-            let depth = receiver_depth(space, plane, uv) - margin;
+            let depth = compared_at(space, plane, uv, margin);
             sum += weight * textureSampleCompareLevel(map, map_sampler, uv, layer, depth);
             total += weight;
         }
     }
     let visibility = sum / total;
     return select(visibility, 1.0, receives < 0.5 || outside_light_map(space, position, plane.uv));
+}
+
+fn compared_at(space: LightSpace, plane: ReceiverPlane, uv: vec2f, margin: f32) -> f32 {
+    return receiver_depth(space, plane, uv) - margin;
 }
 
 struct Vertex {

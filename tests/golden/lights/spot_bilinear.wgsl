@@ -125,15 +125,18 @@ fn receiver_plane(space: LightSpace, position: vec3f, normal: vec3f) -> Receiver
     return ReceiverPlane(light_map_uv(space, position), position.z, n.xy * ray_per_uv / bounded, n.xy / bounded);
 }
 
-fn receiver_depth(space: LightSpace, plane: ReceiverPlane, uv: vec2f) -> f32 {
+fn receiver_distance(space: LightSpace, plane: ReceiverPlane, uv: vec2f) -> f32 {
     let change = dot(plane.slope, uv - plane.uv);
     let parallel = plane.distance - change;
     // Rays that run away along the plane are held within four times the distance.
     let perspective = plane.distance / max(1.0 + change, 0.25);
     let is_perspective = space.projection.z > 0.5;
     let across = length((uv - plane.uv) * 2.0 / space.projection.xy) * select(1.0, plane.distance, is_perspective);
-    let distance = min(select(parallel, perspective, is_perspective), plane.distance + MAX_RETREAT * across);
-    return saturate(light_linear_depth(space, distance));
+    return min(select(parallel, perspective, is_perspective), plane.distance + MAX_RETREAT * across);
+}
+
+fn receiver_depth(space: LightSpace, plane: ReceiverPlane, uv: vec2f) -> f32 {
+    return saturate(light_linear_depth(space, receiver_distance(space, plane, uv)));
 }
 
 fn receiver_slope(space: LightSpace, plane: ReceiverPlane) -> vec2f {
@@ -195,12 +198,16 @@ fn pcf_shadow(
     let uv_10 = texel + vec2f(next.x, 0.0);
     let uv_01 = texel + vec2f(0.0, next.y);
     let uv_11 = texel + next;
-    let lit_00 = textureSampleCompareLevel(map, map_sampler, texel, layer, receiver_depth(space, plane, texel) - margin);
-    let lit_10 = textureSampleCompareLevel(map, map_sampler, uv_10, layer, receiver_depth(space, plane, uv_10) - margin);
-    let lit_01 = textureSampleCompareLevel(map, map_sampler, uv_01, layer, receiver_depth(space, plane, uv_01) - margin);
-    let lit_11 = textureSampleCompareLevel(map, map_sampler, uv_11, layer, receiver_depth(space, plane, uv_11) - margin);
+    let lit_00 = textureSampleCompareLevel(map, map_sampler, texel, layer, compared_at(space, plane, texel, margin));
+    let lit_10 = textureSampleCompareLevel(map, map_sampler, uv_10, layer, compared_at(space, plane, uv_10, margin));
+    let lit_01 = textureSampleCompareLevel(map, map_sampler, uv_01, layer, compared_at(space, plane, uv_01, margin));
+    let lit_11 = textureSampleCompareLevel(map, map_sampler, uv_11, layer, compared_at(space, plane, uv_11, margin));
     let visibility = mix(mix(lit_00, lit_10, part.x), mix(lit_01, lit_11, part.x), part.y);
     return select(visibility, 1.0, receives < 0.5 || outside_light_map(space, position, plane.uv));
+}
+
+fn compared_at(space: LightSpace, plane: ReceiverPlane, uv: vec2f, margin: f32) -> f32 {
+    return receiver_depth(space, plane, uv) - margin;
 }
 
 struct Vertex {

@@ -125,15 +125,18 @@ fn receiver_plane(space: LightSpace, position: vec3f, normal: vec3f) -> Receiver
     return ReceiverPlane(light_map_uv(space, position), position.z, n.xy * ray_per_uv / bounded, n.xy / bounded);
 }
 
-fn receiver_depth(space: LightSpace, plane: ReceiverPlane, uv: vec2f) -> f32 {
+fn receiver_distance(space: LightSpace, plane: ReceiverPlane, uv: vec2f) -> f32 {
     let change = dot(plane.slope, uv - plane.uv);
     let parallel = plane.distance - change;
     // Rays that run away along the plane are held within four times the distance.
     let perspective = plane.distance / max(1.0 + change, 0.25);
     let is_perspective = space.projection.z > 0.5;
     let across = length((uv - plane.uv) * 2.0 / space.projection.xy) * select(1.0, plane.distance, is_perspective);
-    let distance = min(select(parallel, perspective, is_perspective), plane.distance + MAX_RETREAT * across);
-    return saturate(light_linear_depth(space, distance));
+    return min(select(parallel, perspective, is_perspective), plane.distance + MAX_RETREAT * across);
+}
+
+fn receiver_depth(space: LightSpace, plane: ReceiverPlane, uv: vec2f) -> f32 {
+    return saturate(light_linear_depth(space, receiver_distance(space, plane, uv)));
 }
 
 fn receiver_slope(space: LightSpace, plane: ReceiverPlane) -> vec2f {
@@ -191,9 +194,13 @@ fn pcf_shadow(
     // The sampler compares one depth with four texels, whose centres lie up to a texel to each side: the depth is taken
     // a texel away, where the plane is nearest to the light.
     let nearer = sign(plane.slope) / size;
-    let depth = receiver_depth(space, plane, plane.uv + nearer) - margin;
+    let depth = compared_at(space, plane, plane.uv + nearer, margin);
     let visibility = textureSampleCompareLevel(map, blending_sampler, plane.uv, layer, depth);
     return select(visibility, 1.0, receives < 0.5 || outside_light_map(space, position, plane.uv));
+}
+
+fn compared_at(space: LightSpace, plane: ReceiverPlane, uv: vec2f, margin: f32) -> f32 {
+    return receiver_depth(space, plane, uv) - margin;
 }
 
 struct Vertex {

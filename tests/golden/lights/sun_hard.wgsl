@@ -172,9 +172,13 @@ fn hard_shadow(
     let rounding = receiver_rounding(receiver_slope(space, plane) / size) + receiver_curvature(space, plane, size, 0.5);
     let margin = bias * space.depth.z + rounding;
     let center = (floor(plane.uv * size) + 0.5) / size;
-    let depth = receiver_depth(space, plane, center) - margin;
+    let depth = compared_at(space, plane, center, margin);
     let visibility = textureSampleCompareLevel(map, map_sampler, center, layer, depth);
     return select(visibility, 1.0, receives < 0.5 || outside_light_map(space, position, plane.uv));
+}
+
+fn compared_at(space: LightSpace, plane: ReceiverPlane, uv: vec2f, margin: f32) -> f32 {
+    return receiver_depth(space, plane, uv) - margin;
 }
 
 struct Vertex {
