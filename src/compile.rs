@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use crate::diagnostic::{Diagnostic, Place, has_errors, limited};
-use crate::emit::{emit, parameter_block};
+use crate::emit::{emit, larger_than};
 use crate::graph::Graph;
 use crate::module::Module;
 use crate::node::Catalog;
@@ -80,8 +80,7 @@ fn compile_unlimited(
     let mut program = build(&woven, if options.bake { Bake::All } else { Bake::Nothing }, options.unshadowed);
     // What no device need take as uniforms becomes constants, the nodes' own defaults first.
     for (bake, which) in [(Bake::Defaults, "values that no one changed"), (Bake::All, "all values")] {
-        let (count, bytes) = parameter_block(&program);
-        if bytes > MAX_PARAMETER_BYTES {
+        if let Some((count, bytes)) = larger_than(MAX_PARAMETER_BYTES, &program) {
             diagnostics.push(too_many_parameters(count, bytes, which, graphs));
             program = build(&woven, bake, options.unshadowed);
         }

@@ -129,7 +129,7 @@ pub enum Address {
 pub struct Parameter {
     /// `node.port`, or `graph/node.port` if there are several graphs.
     pub path: String,
-    /// WGSL member name.
+    /// WGSL member name; in a block of hundreds with its group before it: `group_2.noise_scale`.
     pub name: String,
     /// Shape in WGSL. A `bool` is carried as `u32`.
     pub shape: Shape,

@@ -199,3 +199,55 @@ fn long_stages_are_shared_out() {
         assert!(complaints.is_empty(), "{}", complaints.join("\n"));
     }
 }
+
+/// The host writes values where the device reads them, also where hundreds of members stand in groups.
+#[test]
+fn parameters_lie_where_the_module_says() {
+    let mut nodes = String::from("\"last\": (kind: \"unlit\"),");
+    let mut links = String::new();
+    for i in 0..300 {
+        let (kind, port, value) = [
+            ("mix_color", "a", "(1, 0, 0)"),
+            ("choose", "condition", "true"),
+            ("vector3", "vector", "(1, 2, 3)"),
+            ("smooth_step", "x", "0.5"),
+        ][i % 4];
+        nodes.push_str(&format!("\"n{i}\": (kind: \"{kind}\", params: {{\"{port}\": {value}}}),"));
+        nodes.push_str(&format!("\"sum{i}\": (kind: \"add\"),"));
+        links.push_str(&format!("\"n{i} -> sum{i}.a\","));
+        if i > 0 {
+            links.push_str(&format!("\"sum{} -> sum{i}.b\",", i - 1));
+        }
+    }
+    let many = format!("Graph(version: 1, nodes: {{{nodes}}}, links: [{links} \"sum299 -> last.color\"])");
+    let mut graphs = vec![graph_text("many", &SourceText::new("many.ron", many))];
+    graphs.extend(examples().iter().map(|path| graph_file(path)));
+    for (index, graph) in graphs.into_iter().enumerate() {
+        let name = graph.name.clone();
+        let module = compiled(&[graph], &Options::default()).module;
+        assert!(
+            index > 0 || module.wgsl.contains("struct ParameterGroup3 {"),
+            "{} parameters",
+            module.parameters.len()
+        );
+        let verified = shadetree::verify::verify(&module).expect("sound WGSL").module;
+        let mut found = Vec::new();
+        let mut bytes = 0;
+        for (_, ty) in verified.types.iter().filter(|(_, ty)| ty.name.as_deref() == Some("Parameters")) {
+            let naga::TypeInner::Struct { members, span } = &ty.inner else { panic!("{ty:?}") };
+            bytes = span.next_multiple_of(16);
+            for member in members {
+                let outer = member.name.clone().expect("a name");
+                match &verified.types[member.ty].inner {
+                    naga::TypeInner::Struct { members, .. } => found.extend(members.iter().map(|inner| {
+                        (format!("{outer}.{}", inner.name.as_deref().expect("a name")), member.offset + inner.offset)
+                    })),
+                    _ => found.push((outer, member.offset)),
+                }
+            }
+        }
+        let said: Vec<(String, u32)> = module.parameters.iter().map(|p| (p.name.clone(), p.offset)).collect();
+        assert_eq!(said, found, "{name}");
+        assert_eq!(module.parameter_bytes, bytes, "{name}");
+    }
+}

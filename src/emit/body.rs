@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use super::Reached;
 use super::functions::Functions;
-use super::names::{Names, sanitise};
+use super::names::Names;
 use super::parts::{Division, divide};
 use super::stages::varying;
 use super::text::{Part, Text, is_atomic, parts};
@@ -43,7 +43,8 @@ struct Printer<'a> {
     reached: &'a Reached,
     functions: &'a Functions,
     variables: &'a BTreeMap<Resource, String>,
-    members: &'a [Option<String>],
+    /// By parameter: the WGSL that reads it.
+    reads: &'a [Option<String>],
     names: Names,
     /// What to write where an expression is used.
     printed: Vec<Printed>,
@@ -57,11 +58,11 @@ pub(crate) fn write_fragment(
     root: Id,
     functions: &Functions,
     variables: &BTreeMap<Resource, String>,
-    members: &[Option<String>],
+    reads: &[Option<String>],
     names: Names,
 ) {
     let printed = vec![Printed::default(); program.expressions.len()];
-    let mut printer = Printer { program, reached, functions, variables, members, names, printed };
+    let mut printer = Printer { program, reached, functions, variables, reads, names, printed };
     let division = divide(program, reached, root);
     let (attribute, parameter, argument) = if reached.inputs.contains("front_facing") {
         (", @builtin(front_facing) front_facing: bool", ", front_facing: bool", ", front_facing")
@@ -161,7 +162,7 @@ impl Printer<'_> {
     }
 
     fn name(&mut self, expression: &Expression) -> String {
-        self.names.fresh(&sanitise(&expression.name.replace("_under_", "_")))
+        self.names.fresh(&expression.name.replace("_under_", "_"))
     }
 
     fn print(&self, expression: &Expression) -> Printed {
@@ -224,22 +225,11 @@ impl Printer<'_> {
             Op::Input(name) => out.push(&format!("in.{name}")),
             Op::Frame(name) => out.push(&format!("frame.{name}")),
             Op::Object(name) => out.push(&format!("object.{name}")),
-            Op::Parameter(index) => out.push(&self.parameter(*index)),
+            Op::Parameter(index) => out.push(self.reads.get(*index).and_then(Option::as_deref).unwrap_or_default()),
             Op::Literal(text) => out.push(text),
             Op::Resource(resource) => out.push(self.variables.get(resource).map_or("", String::as_str)),
         }
         out
-    }
-
-    fn parameter(&self, index: usize) -> String {
-        let member = self.members.get(index).and_then(Option::as_deref).unwrap_or_default();
-        let parameter = &self.program.parameters[index];
-        let port = self.program.nodes[parameter.node].definition.input(&parameter.port);
-        match port.map(|p| &p.ty.shape) {
-            // A bool cannot live in a uniform block.
-            Some(Shape::Bool) => format!("(parameters.{member} != 0u)"),
-            _ => format!("parameters.{member}"),
-        }
     }
 }
 

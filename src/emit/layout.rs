@@ -14,13 +14,14 @@ pub(crate) fn extent(shape: &Shape) -> (u32, u32) {
     }
 }
 
-/// The offset of each member, and the size of the block as a multiple of 16.
-pub(crate) fn offsets<'a>(shapes: impl Iterator<Item = &'a Shape>) -> (Vec<u32>, u32) {
+/// The offset of each member, and the size of the block as a multiple of 16. Every `group` members make a structure,
+/// which begins at a multiple of 16.
+pub(crate) fn offsets<'a>(shapes: impl Iterator<Item = &'a Shape>, group: usize) -> (Vec<u32>, u32) {
     let mut end = 0_u32;
     let mut offsets = Vec::new();
-    for shape in shapes {
+    for (index, shape) in shapes.enumerate() {
         let (align, size) = extent(shape);
-        let start = end.next_multiple_of(align);
+        let start = end.next_multiple_of(if index % group == 0 { 16 } else { align });
         offsets.push(start);
         end = start + size;
     }

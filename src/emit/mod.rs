@@ -5,6 +5,7 @@
 //! several do. The printer cannot fail.
 
 mod bindings;
+mod block;
 mod body;
 mod functions;
 mod layout;
@@ -16,12 +17,12 @@ mod text;
 use std::collections::BTreeSet;
 
 use crate::diagnostic::Diagnostic;
-use crate::module::{Attribute, FRAME_WGSL, Module, OBJECT_WGSL, Parameter};
-use crate::node::{Catalog, Default};
+use crate::module::{Attribute, FRAME_WGSL, Module, OBJECT_WGSL};
+use crate::node::Catalog;
 use crate::plan::{Plan, plan};
 use crate::program::{Id, Op, Program, Resource, Varying};
-use crate::semantic::Shape;
 
+pub(crate) use block::larger_than;
 use names::Names;
 use text::Text;
 
@@ -92,13 +93,6 @@ fn reach(program: &Program, root: Id) -> Reached {
     reached
 }
 
-/// Number of members and size in bytes of a program's parameter block, but for what only the spaces of maps need.
-pub fn parameter_block(program: &Program) -> (usize, u32) {
-    let Some(root) = program.root else { return (0, 0) };
-    let (members, bytes, _) = parameters(program, &reach(program, root), &Plan::default());
-    (members.len(), bytes)
-}
-
 /// The module and plan of a program. Diagnostics are about node and pass files only.
 pub fn emit(program: &Program, catalog: &Catalog, title: &str) -> (Module, Plan, Vec<Diagnostic>) {
     let Some(root) = program.root else { return (Module::default(), Plan::default(), Vec::new()) };
@@ -122,9 +116,12 @@ pub fn emit(program: &Program, catalog: &Catalog, title: &str) -> (Module, Plan,
     ] {
         names.claim(fixed);
     }
+    for group in block::group_names(program) {
+        names.claim(&group);
+    }
     let functions = functions::gather(program, &reached, catalog, &mut names);
-    let (parameters, parameter_bytes, members) = parameters(program, &reached, &plan);
-    let (bindings, variables) = bindings::bind(program, &reached, &maps, parameter_bytes > 0, &mut names);
+    let block = block::block(program, &reached, &plan);
+    let (bindings, variables) = bindings::bind(program, &reached, &maps, block.bytes > 0, &mut names);
     let attributes = attributes(&reached);
 
     let mut text = Text::default();
@@ -133,17 +130,8 @@ pub fn emit(program: &Program, catalog: &Catalog, title: &str) -> (Module, Plan,
     text.push(FRAME_WGSL);
     text.blank();
     text.push(OBJECT_WGSL);
-    if !parameters.is_empty() {
-        text.blank();
-        text.line("struct Parameters {");
-        for parameter in &parameters {
-            let (node, port) = parameter.path.rsplit_once('.').unwrap_or((&parameter.path, ""));
-            let start = text.len();
-            let ty = if parameter.shape == Shape::Bool { "u32".to_owned() } else { parameter.shape.wgsl() };
-            text.line(&format!("    {}: {ty},", parameter.name));
-            text.origin(start, node, Some(port));
-        }
-        text.line("}");
+    if !block.parameters.is_empty() {
+        block.write(&mut text);
     }
     functions.write_structs(&mut text);
     text.blank();
@@ -152,8 +140,9 @@ pub fn emit(program: &Program, catalog: &Catalog, title: &str) -> (Module, Plan,
     }
     functions.write_functions(&mut text, program);
     stages::write_vertex(&mut text, &attributes, &reached);
-    body::write_fragment(&mut text, program, &reached, root, &functions, &variables, &members, names);
+    body::write_fragment(&mut text, program, &reached, root, &functions, &variables, &block.reads, names);
     let (wgsl, source_map) = text.finish();
+    let (parameters, parameter_bytes) = (block.parameters, block.bytes);
     (Module { wgsl, bindings, parameters, parameter_bytes, attributes, source_map }, plan, diagnostics)
 }
 
@@ -177,60 +166,6 @@ fn plan_of(program: &Program, reached: &Reached, catalog: &Catalog) -> (Plan, Ve
     let (plan, diagnostics) = plan(program, &maps, &lights, catalog);
     let order = maps.iter().enumerate().map(|(new, old)| (*old, new)).collect();
     (plan, order, diagnostics)
-}
-
-/// Members of the parameter block: those that are read, and those that the spaces of maps are made from.
-fn parameters(program: &Program, reached: &Reached, plan: &Plan) -> (Vec<Parameter>, u32, Vec<Option<String>>) {
-    let mut wanted: BTreeSet<usize> = BTreeSet::new();
-    for id in &reached.order {
-        if let Op::Parameter(index) = program.get(*id).op {
-            wanted.insert(index);
-        }
-    }
-    let spaces: BTreeSet<&String> =
-        plan.lights.iter().filter_map(|l| l.space.as_ref()).flat_map(|s| &s.inputs).collect();
-    let path = |p: &crate::program::Parameter| format!("{}.{}", program.nodes[p.node].id, p.port);
-    wanted.extend((0..program.parameters.len()).filter(|i| spaces.contains(&path(&program.parameters[*i]))));
-
-    let mut order: Vec<usize> = wanted.into_iter().collect();
-    // By node and port name, so that the block does not depend on the order of the graph.
-    order.sort_by_key(|i| path(&program.parameters[*i]));
-    let shapes: Vec<Shape> = order
-        .iter()
-        .map(|i| {
-            let parameter = &program.parameters[*i];
-            let port = program.nodes[parameter.node].definition.input(&parameter.port);
-            port.map_or(Shape::F32(1), |p| program.shape_of(parameter.node, p))
-        })
-        .collect();
-    let (offsets, bytes) = layout::offsets(shapes.iter());
-    let mut members = vec![None; program.parameters.len()];
-    let mut block = Names::default();
-    let mut out = Vec::new();
-    for ((index, shape), offset) in order.into_iter().zip(shapes).zip(offsets) {
-        let parameter = &program.parameters[index];
-        let info = &program.nodes[parameter.node];
-        let Some(port) = info.definition.input(&parameter.port) else { continue };
-        let name = block.fresh(&format!("{}_{}", info.short, parameter.port));
-        members[index] = Some(name.clone());
-        let default = match &port.default {
-            Some(Default::Value(value)) => value.clone(),
-            _ => parameter.value.clone(),
-        };
-        out.push(Parameter {
-            path: path(parameter),
-            name,
-            shape,
-            offset,
-            meaning: port.ty.meaning.to_string(),
-            unit: port.unit.clone(),
-            range: port.range,
-            default,
-            value: parameter.value.clone(),
-            doc: port.doc.clone(),
-        });
-    }
-    (out, bytes, members)
 }
 
 fn attributes(reached: &Reached) -> Vec<Attribute> {

@@ -1,6 +1,8 @@
 //! Names in generated text: sanitised, never reserved, each used once.
 
-use std::collections::{HashMap, HashSet};
+use std::sync::OnceLock;
+
+use foldhash::{HashMap, HashSet};
 
 use crate::node::is_reserved;
 
@@ -15,13 +17,14 @@ pub(crate) struct Names {
 impl Names {
     /// Marks a name as used; whether it was free.
     pub(crate) fn claim(&mut self, name: &str) -> bool {
-        self.used.insert(name.to_owned())
+        !self.used.contains(name) && self.used.insert(name.to_owned())
     }
 
     /// A free name near `wanted`, now used.
     pub(crate) fn fresh(&mut self, wanted: &str) -> String {
         let base = sanitise(wanted);
-        if !is_taken_by_wgsl(&base) && self.claim(&base) {
+        if !self.used.contains(&base) && !is_taken_by_wgsl(&base) {
+            self.used.insert(base.clone());
             return base;
         }
         loop {
@@ -40,20 +43,21 @@ pub(crate) fn sanitise(name: &str) -> String {
     let mut out = String::with_capacity(name.len());
     for c in name.chars() {
         let c = if c.is_ascii_alphanumeric() { c.to_ascii_lowercase() } else { '_' };
-        if c != '_' || !out.ends_with('_') {
+        // None at the start, none twice.
+        if c != '_' || !(out.is_empty() || out.ends_with('_')) {
             out.push(c);
         }
     }
-    let trimmed = out.trim_matches('_');
-    if trimmed.is_empty() || trimmed.starts_with(|c: char| c.is_ascii_digit()) {
-        format!("n{trimmed}")
-    } else {
-        trimmed.to_owned()
+    out.truncate(out.trim_end_matches('_').len());
+    if !out.starts_with(|c: char| c.is_ascii_alphabetic()) {
+        out.insert(0, 'n');
     }
+    out
 }
 
 fn is_taken_by_wgsl(name: &str) -> bool {
-    is_reserved(name) || BUILTINS.contains(&name)
+    static BUILTIN: OnceLock<HashSet<&str>> = OnceLock::new();
+    is_reserved(name) || BUILTIN.get_or_init(|| BUILTINS.iter().copied().collect()).contains(name)
 }
 
 /// Predeclared functions and types that a name of ours must not shadow.

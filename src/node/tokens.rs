@@ -1,6 +1,9 @@
 //! WGSL words: just enough lexing to split a file into its declarations and to rename what they mention.
 
 use std::ops::Range;
+use std::sync::OnceLock;
+
+use foldhash::HashSet;
 
 /// What a token is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -124,7 +127,8 @@ pub fn is_identifier(name: &str) -> bool {
 
 /// Whether WGSL keeps the word for itself.
 pub fn is_reserved(name: &str) -> bool {
-    naga::keywords::wgsl::RESERVED.contains(&name)
+    static RESERVED: OnceLock<HashSet<&str>> = OnceLock::new();
+    RESERVED.get_or_init(|| naga::keywords::wgsl::RESERVED.iter().copied().collect()).contains(name)
 }
 
 /// Positions of the words that name module-scope things or locals: not attributes and their arguments that are
