@@ -1,6 +1,6 @@
 //! What can be wrong with a graph without knowing its nodes.
 
-use std::collections::BTreeMap;
+use foldhash::HashMap;
 
 use super::read::Report;
 use super::{End, Graph, Link};
@@ -103,7 +103,7 @@ pub(super) fn find_cycles(graph: &Graph, most: usize) -> Vec<Cycle> {
         Done,
     }
     let names: Vec<&String> = graph.nodes.iter().filter(|(_, n)| n.graph.is_none()).map(|(name, _)| name).collect();
-    let numbers: BTreeMap<&String, usize> = names.iter().enumerate().map(|(i, name)| (*name, i)).collect();
+    let numbers: HashMap<&String, usize> = names.iter().enumerate().map(|(i, name)| (*name, i)).collect();
     let mut next: Vec<Vec<(usize, usize)>> = vec![Vec::new(); names.len()];
     for (index, link) in graph.links.iter().enumerate() {
         if let (Some(&from), Some(&to)) = (numbers.get(&link.from.node), numbers.get(&link.to.node))

@@ -62,14 +62,13 @@ impl Report {
 pub fn read(source: &Arc<SourceText>) -> (Option<Graph>, Vec<Diagnostic>) {
     let (document, found) = ron::read(source);
     let mut report = Report { source: source.clone(), found };
-    let graph = document.and_then(|document| graph(&document, &mut report));
+    let graph = document.and_then(|document| graph(document, &mut report));
     (graph, report.found)
 }
 
-fn graph(document: &ron::Document, report: &mut Report) -> Option<Graph> {
-    let root = &document.root;
-    let mut fields = root_fields(root, report)?;
-    if !migrate::migrate(&mut fields, root, report) {
+fn graph(mut document: ron::Document, report: &mut Report) -> Option<Graph> {
+    let mut fields = root_fields(&mut document.root, report)?;
+    if !migrate::migrate(&mut fields, &document.root, report) {
         return None;
     }
     let source = report.source.clone();
@@ -103,21 +102,24 @@ fn graph(document: &ron::Document, report: &mut Report) -> Option<Graph> {
     }
     let known = ["version", "name", "note", "nodes", "links", "output", "expose", "layout"];
     graph.unknown = report.unknown(&fields, &known);
-    comments::keep(document, &source.text, items, &mut graph);
+    comments::keep(&document, &source.text, items, &mut graph);
     graph.sort_links();
     check::cycles(&graph).for_each(|cycle| report.push(cycle));
     Some(graph)
 }
 
-fn root_fields(root: &Node, report: &mut Report) -> Option<Vec<Field>> {
-    let (name, fields) = match &root.value {
-        Tree::Struct(name, fields) => (name.as_deref(), fields.clone()),
-        Tree::Tuple(name, items) if items.is_empty() => (name.as_deref(), Vec::new()),
-        _ => (None, Vec::new()),
-    };
-    if name == Some("Graph") {
-        return Some(fields);
+/// The fields of the `Graph(...)`, taken out of it.
+fn root_fields(root: &mut Node, report: &mut Report) -> Option<Vec<Field>> {
+    match &mut root.value {
+        Tree::Struct(Some(name), fields) if name == "Graph" => return Some(std::mem::take(fields)),
+        Tree::Tuple(Some(name), items) if name == "Graph" && items.is_empty() => return Some(Vec::new()),
+        _ => {}
     }
+    let name = match &root.value {
+        Tree::Struct(name, _) => name.as_deref(),
+        Tree::Tuple(name, items) if items.is_empty() => name.as_deref(),
+        _ => None,
+    };
     let place = report.at(root.span.start..root.span.start + name.map_or(1, str::len));
     let message = format!("expected `Graph(...)`, found {}", root.value.describe());
     let help = match name {

@@ -27,6 +27,8 @@ pub struct NodeFile {
     embedded: bool,
     source: OnceLock<Arc<SourceText>>,
     header: OnceLock<Outcome<Header>>,
+    /// The definition with all defaults: most nodes want no other.
+    plain: OnceLock<Outcome<Definition>>,
     definitions: Mutex<BTreeMap<Vec<String>, Outcome<Definition>>>,
 }
 
@@ -45,6 +47,7 @@ impl NodeFile {
             embedded,
             source: OnceLock::new(),
             header: OnceLock::new(),
+            plain: OnceLock::new(),
             definitions: Mutex::new(BTreeMap::new()),
         }
     }
@@ -92,6 +95,13 @@ impl NodeFile {
     /// Everything that is wrong with the header, the choices, the port lines and the signatures. The bodies of
     /// functions are not judged here but in [`NodeFile::verify`](super::NodeFile::verify).
     pub fn definition(&self, choices: &Choices) -> Result<Arc<Definition>, Vec<Diagnostic>> {
+        if choices.is_empty() {
+            return self.plain.get_or_init(|| self.with_choices(choices)).clone();
+        }
+        self.with_choices(choices)
+    }
+
+    fn with_choices(&self, choices: &Choices) -> Result<Arc<Definition>, Vec<Diagnostic>> {
         let header = self.header()?;
         let made = resolve(&header.options, choices, Place::file(&*self.path))?;
         let key: Vec<String> = made.iter().map(|(_, choice)| choice.clone()).collect();

@@ -1,8 +1,9 @@
 //! From text to tree. Goes on after a mistake at the next comma or closing bracket, so that one reading tells of all.
 
-use std::collections::HashSet;
 use std::ops::Range;
 use std::sync::Arc;
+
+use foldhash::{HashSet, HashSetExt};
 
 use super::scan::fatal;
 use super::{Field, MAX_BYTES, MAX_DEPTH, MAX_ERRORS, MAX_VALUES, Node, Tree};
@@ -16,6 +17,9 @@ pub struct Comment {
     /// Whether it is `/* ... */`.
     pub block: bool,
 }
+
+/// Fields of a struct up to which no set of their names is kept.
+const FEW: usize = 16;
 
 /// A text that was read.
 #[derive(Clone, Debug)]
@@ -253,6 +257,7 @@ impl Reader<'_> {
 
     fn fields(&mut self) -> Result<Vec<Field>, Mistake> {
         let mut fields = Vec::new();
+        // Few fields are found sooner by looking at each.
         let mut names = HashSet::new();
         self.series(')', |reader| {
             let start = reader.at;
@@ -262,7 +267,12 @@ impl Reader<'_> {
             let name_span = start..reader.at;
             reader.colon()?;
             let value = reader.value()?;
-            if names.insert(name.clone()) {
+            if fields.len() == FEW {
+                names.extend(fields.iter().map(|f: &Field| f.name.clone()));
+            }
+            let known =
+                if fields.len() < FEW { fields.iter().any(|f| f.name == name) } else { !names.insert(name.clone()) };
+            if !known {
                 fields.push(Field { name, name_span, value });
             } else {
                 reader.twice(&name, name_span);

@@ -278,12 +278,37 @@ impl Shape {
 }
 
 /// Meaning and shape: the type of a port.
-#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Type {
     /// What it means.
     pub meaning: Meaning,
     /// What carries it.
     pub shape: Shape,
+}
+
+impl std::hash::Hash for Type {
+    /// All but the name of a named shape in one word: types are looked up for every link.
+    fn hash<H: std::hash::Hasher>(&self, state: &mut H) {
+        let Meaning { kind, frame, length, quantity, encoding } = self.meaning;
+        let (tag, number) = match &self.shape {
+            Shape::F32(n) => (0, *n),
+            Shape::Matrix(n) => (1, *n),
+            Shape::Bool => (2, 0),
+            Shape::I32 => (3, 0),
+            Shape::U32 => (4, 0),
+            Shape::Texture => (5, 0),
+            Shape::DepthTexture => (6, 0),
+            Shape::Sampler => (7, 0),
+            Shape::ComparisonSampler => (8, 0),
+            Shape::Generic => (9, 0),
+            Shape::Named(name) => {
+                name.hash(state);
+                (10, 0)
+            }
+        };
+        let bytes = [kind as u8, frame as u8, length as u8, quantity as u8, encoding as u8, tag, number, 0];
+        state.write_u64(u64::from_le_bytes(bytes));
+    }
 }
 
 impl Type {

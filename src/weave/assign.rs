@@ -12,6 +12,10 @@ pub(crate) fn assign(cost: &[Vec<u64>]) -> Option<(u64, Vec<usize>)> {
     if rows > columns {
         return None;
     }
+    if let [row] = cost {
+        let (column, least) = row.iter().copied().enumerate().min_by_key(|(_, c)| *c)?;
+        return (least < NEVER).then(|| (least, vec![column]));
+    }
     let at = |r: usize, c: usize| i128::from(cost[r - 1][c - 1]);
     let (mut row_price, mut column_price) = (vec![0_i128; rows + 1], vec![0_i128; columns + 1]);
     let (mut taken_by, mut way) = (vec![0; columns + 1], vec![0; columns + 1]);
@@ -64,6 +68,9 @@ pub(crate) fn assign(cost: &[Vec<u64>]) -> Option<(u64, Vec<usize>)> {
 
 /// A row that could take another column at no greater total cost, with that column.
 pub(crate) fn alternative(cost: &[Vec<u64>], total: u64, chosen: &[usize]) -> Option<(usize, usize)> {
+    if let ([row], [column]) = (cost, chosen) {
+        return row.iter().enumerate().position(|(c, price)| c != *column && *price == total).map(|other| (0, other));
+    }
     for (row, &column) in chosen.iter().enumerate() {
         let mut without = cost.to_vec();
         without[row][column] = NEVER;

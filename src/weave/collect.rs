@@ -1,8 +1,9 @@
 //! The nodes and links of all graphs in one list, each node with its definition and its values checked.
 
-use std::collections::{BTreeMap, BTreeSet, HashMap};
+use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
+use foldhash::{HashMap, HashMapExt};
 use petgraph::algo::toposort;
 use petgraph::graph::{DiGraph, NodeIndex};
 
@@ -28,16 +29,13 @@ impl Collected {
         for (new, &old) in order.iter().enumerate() {
             place[old] = new;
         }
-        let mut nodes: Vec<(usize, Found)> = self.nodes.drain(..).enumerate().map(|(old, n)| (place[old], n)).collect();
-        nodes.sort_by_key(|(new, _)| *new);
-        self.nodes = nodes.into_iter().map(|(_, n)| n).collect();
+        let mut nodes: Vec<Option<Found>> = self.nodes.drain(..).map(Some).collect();
+        self.nodes = order.iter().filter_map(|&old| nodes[old].take()).collect();
         for link in &mut self.links {
             (link.from, link.to) = (place[link.from], place[link.to]);
         }
-        self.links.sort_by(|a, b| {
-            let key = |l: &Link| (l.to, l.to_port.clone(), l.from, l.from_port.clone());
-            key(a).cmp(&key(b))
-        });
+        self.links
+            .sort_by(|a, b| (a.to, &a.to_port, a.from, &a.from_port).cmp(&(b.to, &b.to_port, b.from, &b.from_port)));
         self.incoming = vec![Vec::new(); self.nodes.len()];
         for (i, link) in self.links.iter().enumerate() {
             self.incoming[link.to].push(i);
@@ -140,7 +138,8 @@ fn definition(
         out.push(Diagnostic::error("ST0200", message, graph.kind_place(name)).help(help));
         return None;
     } else if let Some(file) = catalog.get(&node.kind) {
-        if let Ok(header) = file.header()
+        if !node.options.is_empty()
+            && let Ok(header) = file.header()
             && !check_options(graph, name, node, file, &header, out)
         {
             return file.definition(&BTreeMap::new()).ok();
