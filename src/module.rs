@@ -1,5 +1,7 @@
 //! A woven shader: WGSL text with everything a renderer must know to run it, and nothing about graphs or nodes. (interface)
 
+use std::sync::Arc;
+
 use crate::semantic::{Shape, Value};
 
 /// WGSL with its interface. Entry points are `vs_main` and `fs_main`.
@@ -179,9 +181,9 @@ pub struct Origin {
     /// One past the last byte.
     pub end: usize,
     /// Node name (as in the plan and in parameter paths).
-    pub node: String,
+    pub node: Arc<str>,
     /// Port of the node, if the range belongs to one.
-    pub port: Option<String>,
+    pub port: Option<Arc<str>>,
 }
 
 impl Module {

@@ -53,8 +53,8 @@ impl Fault {
         let origin = self.at.iter().find_map(|(range, _)| module.origin_of(range.start));
         let place = match origin {
             Some(origin) => {
-                let place = Place::default().node(&origin.node);
-                origin.port.iter().fold(place, |p, port| p.port(port))
+                let place = Place::default().node(&*origin.node);
+                origin.port.iter().fold(place, |p, port| p.port(&**port))
             }
             None => Place::default(),
         };

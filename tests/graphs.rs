@@ -103,7 +103,7 @@ fn every_output_weaves() {
     }
     let module = compiled(&graphs(), &Options::default()).module;
     for node in ["bumpy_glass/bump", "bumpy_glass/glass", "two_shadows/spot"] {
-        assert!(module.source_map.iter().any(|o| o.node == node), "{node} is not in the source map");
+        assert!(module.source_map.iter().any(|o| *o.node == *node), "{node} is not in the source map");
     }
     for origin in &module.source_map {
         assert!(module.wgsl.get(origin.start..origin.end).is_some(), "{origin:?}");

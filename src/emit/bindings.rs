@@ -66,7 +66,7 @@ pub(crate) fn bind(
                     3,
                     &format!("{}_space", info.short),
                     resource,
-                    Bound::Space { light: info.id.clone(), views },
+                    Bound::Space { light: info.id.to_string(), views },
                     names,
                 );
             }

@@ -1,6 +1,7 @@
 //! The parameter block: which values are in it, in which order, and how the text reads them.
 
 use std::cmp::Ordering;
+use std::sync::Arc;
 
 use super::names::Names;
 use super::text::Text;
@@ -25,6 +26,8 @@ pub(crate) struct Block {
     pub(crate) bytes: u32,
     /// By index into the program's parameters: the WGSL that reads it.
     pub(crate) reads: Vec<Option<String>>,
+    /// Node and port of each member.
+    origins: Vec<(Arc<str>, Arc<str>)>,
 }
 
 /// Members in the order of the block, and where they lie.
@@ -57,7 +60,7 @@ fn order<'a>(program: &'a Program, reached: &Reached, plan: &Plan) -> Order<'a> 
         plan.lights.iter().filter_map(|l| l.space.as_ref()).flat_map(|s| &s.inputs).map(String::as_str).collect();
     let path = |index: usize| {
         let parameter = &program.parameters[index];
-        (program.nodes[parameter.node].id.as_str(), parameter.port.as_str())
+        (&*program.nodes[parameter.node].id, &*parameter.port)
     };
     if !spaces.is_empty() {
         for (index, wanted) in wanted.iter_mut().enumerate().filter(|(_, w)| !**w) {
@@ -113,9 +116,10 @@ pub(crate) fn block(program: &Program, reached: &Reached, plan: &Plan) -> Block 
     let mut reads = vec![None; program.parameters.len()];
     let mut names = Names::default();
     let mut parameters = Vec::with_capacity(members.len());
+    let mut origins = Vec::with_capacity(members.len());
     for (place, ((index, info, port, shape), offset)) in members.into_iter().zip(offsets).enumerate() {
         let parameter = &program.parameters[index];
-        let mut name = names.fresh(&[info.short.as_str(), &parameter.port].join("_"));
+        let mut name = names.fresh(&[&*info.short, &*parameter.port].join("_"));
         if grouped {
             name = format!("group_{}.{name}", place / GROUP + 1);
         }
@@ -126,8 +130,9 @@ pub(crate) fn block(program: &Program, reached: &Reached, plan: &Plan) -> Block 
             Some(Default::Value(value)) => value.clone(),
             _ => parameter.value.clone(),
         };
+        origins.push((info.id.clone(), parameter.port.clone()));
         parameters.push(Parameter {
-            path: [info.id.as_str(), &parameter.port].join("."),
+            path: [&*info.id, &*parameter.port].join("."),
             name,
             shape,
             offset,
@@ -139,19 +144,19 @@ pub(crate) fn block(program: &Program, reached: &Reached, plan: &Plan) -> Block 
             doc: port.doc.clone(),
         });
     }
-    Block { parameters, bytes, reads }
+    Block { parameters, bytes, reads, origins }
 }
 
 impl Block {
     /// The structures of the block.
     pub(crate) fn write(&self, text: &mut Text) {
         if self.parameters.len() <= LARGEST {
-            write_struct(text, "Parameters", &self.parameters);
+            write_struct(text, "Parameters", &self.parameters, &self.origins);
             return;
         }
         let groups: Vec<&[Parameter]> = self.parameters.chunks(GROUP).collect();
         for (index, group) in groups.iter().enumerate() {
-            write_struct(text, &group_name(index + 1), group);
+            write_struct(text, &group_name(index + 1), group, &self.origins[index * GROUP..]);
         }
         text.blank();
         text.line("struct Parameters {");
@@ -162,11 +167,10 @@ impl Block {
     }
 }
 
-fn write_struct(text: &mut Text, name: &str, members: &[Parameter]) {
+fn write_struct(text: &mut Text, name: &str, members: &[Parameter], origins: &[(Arc<str>, Arc<str>)]) {
     text.blank();
     text.line(&format!("struct {name} {{"));
-    for member in members {
-        let (node, port) = member.path.rsplit_once('.').unwrap_or((&member.path, ""));
+    for (member, (node, port)) in members.iter().zip(origins) {
         let start = text.len();
         text.push("    ");
         text.push(member.name.rsplit('.').next().unwrap_or_default());

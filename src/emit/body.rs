@@ -1,6 +1,7 @@
 //! The fragment stage: one line per node, conversions in place.
 
 use std::collections::BTreeMap;
+use std::sync::Arc;
 
 use super::Reached;
 use super::functions::Functions;
@@ -8,35 +9,11 @@ use super::names::Names;
 use super::parts::{Division, divide};
 use super::stages::varying;
 use super::text::{Part, Text, is_atomic, parts};
-use crate::module::Origin;
 use crate::program::{Expression, Id, Op, Program, Resource};
 use crate::semantic::Shape;
 
 /// Calls longer than this take a line for each argument.
 const LINE: usize = 92;
-
-/// A printed expression with the origins of its parts, by bytes from its start.
-#[derive(Clone, Default)]
-struct Printed {
-    text: String,
-    origins: Vec<Origin>,
-}
-
-impl Printed {
-    fn push(&mut self, text: &str) {
-        self.text.push_str(text);
-    }
-
-    fn append(&mut self, other: &Printed) {
-        let shift = self.text.len();
-        self.text.push_str(&other.text);
-        self.origins.extend(other.origins.iter().map(|o| Origin {
-            start: o.start + shift,
-            end: o.end + shift,
-            ..o.clone()
-        }));
-    }
-}
 
 struct Printer<'a> {
     program: &'a Program,
@@ -46,8 +23,10 @@ struct Printer<'a> {
     /// By parameter: the WGSL that reads it.
     reads: &'a [Option<String>],
     names: Names,
-    /// What to write where an expression is used.
-    printed: Vec<Printed>,
+    /// What to write where an expression is used, unless [`Printer::leaf`] knows it.
+    printed: Vec<Text>,
+    /// Names of the inputs of each function in use.
+    ports: BTreeMap<usize, Vec<Arc<str>>>,
 }
 
 #[allow(clippy::too_many_arguments, reason = "the printer's whole input, handed over once")]
@@ -61,8 +40,10 @@ pub(crate) fn write_fragment(
     reads: &[Option<String>],
     names: Names,
 ) {
-    let printed = vec![Printed::default(); program.expressions.len()];
-    let mut printer = Printer { program, reached, functions, variables, reads, names, printed };
+    let printed = vec![Text::default(); program.expressions.len()];
+    let ports_of = |f: &usize| program.functions[*f].function().inputs.iter().map(|p| p.name.as_str().into()).collect();
+    let ports = reached.functions.iter().map(|f| (*f, ports_of(f))).collect();
+    let mut printer = Printer { program, reached, functions, variables, reads, names, printed, ports };
     let division = divide(program, reached, root);
     let (attribute, parameter, argument) = if reached.inputs.contains("front_facing") {
         (", @builtin(front_facing) front_facing: bool", ", front_facing: bool", ", front_facing")
@@ -94,17 +75,12 @@ pub(crate) fn write_fragment(
         Some(division) => (0..division.parts).for_each(|p| text.line(&format!("    {}(in{argument});", part_names[p]))),
         None => printer.write_lines(text, &reached.order, None),
     }
-    let color = printer.printed[root.0 as usize].clone();
     let start = text.len();
     text.push("    return vec4f(");
-    let at = text.len();
-    text.push(&color.text);
-    for origin in color.origins {
-        text.add(Origin { start: origin.start + at, end: origin.end + at, ..origin });
-    }
+    printer.append(text, root);
     text.line(", 1.0);");
     if let Some(node) = program.get(root).origins.first() {
-        text.origin(start, &program.nodes[*node].id, None);
+        text.origin(start, &program.nodes[node].id, None);
     }
     text.line("}");
 }
@@ -129,115 +105,150 @@ impl Printer<'_> {
             };
             let shape = || expression.shape.as_ref().map(Shape::wgsl).unwrap_or_default();
             let ty = result.cloned().unwrap_or_else(shape);
-            text.line(&format!("var<private> {}: {ty};", self.printed[id.0 as usize].text));
+            text.line(&format!("var<private> {}: {ty};", self.printed[id.0 as usize].as_str()));
         }
     }
 
     fn write(&mut self, text: &mut Text, id: Id, read_later: bool, last_comment: &mut String) {
         let program = self.program;
         let expression = program.get(id);
-        let printed = self.print(expression);
         if !self.reached.has_line(program, id) {
-            self.printed[id.0 as usize] = printed;
+            if self.leaf(expression).is_none() {
+                let mut printed = Text::default();
+                self.print(expression, &mut printed);
+                self.printed[id.0 as usize] = printed;
+            }
             return;
         }
-        let comment = if expression.result { comment(program, expression) } else { String::new() };
-        if expression.result && comment != *last_comment {
-            text.line(&format!("    // {comment}"));
-            *last_comment = comment;
+        if expression.result {
+            let comment = comment(program, expression);
+            if comment != *last_comment {
+                text.push("    // ");
+                text.line(&comment);
+                *last_comment = comment;
+            }
         }
-        let name = self.name(expression);
+        let name = if expression.name.contains("_under_") {
+            self.names.fresh(&expression.name.replace("_under_", "_"))
+        } else {
+            self.names.fresh(&expression.name)
+        };
         let start = text.len();
-        let declare = if read_later { "" } else { "let " };
-        text.push(&format!("    {declare}{name} = "));
-        let at = text.len();
-        text.line(&format!("{};", printed.text));
-        for node in &expression.origins {
-            text.origin(start, &program.nodes[*node].id, expression.port.as_deref());
+        text.push(if read_later { "    " } else { "    let " });
+        text.push(&name);
+        text.push(" = ");
+        self.print(expression, text);
+        text.push(";\n");
+        for node in expression.origins.iter() {
+            text.origin(start, &program.nodes[node].id, expression.port.as_ref());
         }
-        for origin in printed.origins {
-            text.add(Origin { start: origin.start + at, end: origin.end + at, ..origin });
-        }
-        self.printed[id.0 as usize] = Printed { text: name, origins: Vec::new() };
+        self.printed[id.0 as usize].push(&name);
     }
 
-    fn name(&mut self, expression: &Expression) -> String {
-        self.names.fresh(&expression.name.replace("_under_", "_"))
+    /// What to write for an expression that is a word without parts.
+    fn leaf<'e>(&'e self, expression: &'e Expression) -> Option<&'e str> {
+        match &expression.op {
+            Op::Parameter(index) => Some(self.reads.get(*index).and_then(Option::as_deref).unwrap_or_default()),
+            Op::Literal(text) => Some(text),
+            Op::Resource(resource) => Some(self.variables.get(resource).map_or("", String::as_str)),
+            _ => None,
+        }
     }
 
-    fn print(&self, expression: &Expression) -> Printed {
-        let operand = |i: usize| expression.operands.get(i).map(|o| &self.printed[o.0 as usize]);
-        let mut out = Printed::default();
+    /// What to write where an expression is used.
+    fn used(&self, id: Id) -> &str {
+        self.leaf(self.program.get(id)).unwrap_or_else(|| self.printed[id.0 as usize].as_str())
+    }
+
+    fn append(&self, out: &mut Text, id: Id) {
+        match self.leaf(self.program.get(id)) {
+            Some(leaf) => out.push(leaf),
+            None => out.append(&self.printed[id.0 as usize]),
+        }
+    }
+
+    fn print(&self, expression: &Expression, out: &mut Text) {
+        let operands = &expression.operands;
         match &expression.op {
             Op::Template { text, .. } => {
                 for part in parts(text) {
                     match part {
                         Part::Plain(plain) => out.push(plain),
                         Part::Slot(i, alone) => {
-                            let Some(inner) = operand(i) else { continue };
-                            if alone || is_atomic(&inner.text) {
-                                out.append(inner);
+                            let Some(&operand) = operands.get(i) else { continue };
+                            if alone || is_atomic(self.used(operand)) {
+                                self.append(out, operand);
                             } else {
                                 out.push("(");
-                                out.append(inner);
+                                self.append(out, operand);
                                 out.push(")");
                             }
                         }
                     }
                 }
             }
-            Op::Call(function) => {
-                out.push(self.functions.names.get(function).map_or("", String::as_str));
-                out.push("(");
-                let inputs = &self.program.functions[*function].function().inputs;
-                let length: usize = (0..expression.operands.len()).filter_map(operand).map(|o| o.text.len() + 2).sum();
-                let broken = length + out.text.len() + expression.name.len() > LINE;
-                for i in 0..expression.operands.len() {
-                    match (broken, i) {
-                        (true, _) => out.push("\n        "),
-                        (false, 0) => {}
-                        (false, _) => out.push(" "),
-                    }
-                    let start = out.text.len();
-                    if let Some(inner) = operand(i) {
-                        out.append(inner);
-                    }
-                    for node in &expression.origins {
-                        let port = inputs.get(i).map(|p| p.name.clone());
-                        let node = self.program.nodes[*node].id.clone();
-                        out.origins.push(Origin { start, end: out.text.len(), node, port });
-                    }
-                    if broken || i + 1 < expression.operands.len() {
-                        out.push(",");
-                    }
-                }
-                out.push(if broken { "\n    )" } else { ")" });
-            }
+            Op::Call(function) => self.print_call(*function, expression, out),
             Op::Member(name) => {
-                if let Some(inner) = operand(0) {
-                    out.append(inner);
-                }
+                operands.iter().for_each(|of| self.append(out, *of));
                 out.push(".");
                 out.push(name);
             }
-            Op::Varying(v) => out.push(&format!("in.{}", varying(*v).0)),
+            Op::Varying(v) => word(out, "in.", varying(*v).0),
             Op::Input("front_facing") => out.push("front_facing"),
-            Op::Input(name) => out.push(&format!("in.{name}")),
-            Op::Frame(name) => out.push(&format!("frame.{name}")),
-            Op::Object(name) => out.push(&format!("object.{name}")),
-            Op::Parameter(index) => out.push(self.reads.get(*index).and_then(Option::as_deref).unwrap_or_default()),
-            Op::Literal(text) => out.push(text),
-            Op::Resource(resource) => out.push(self.variables.get(resource).map_or("", String::as_str)),
+            Op::Input(name) => word(out, "in.", name),
+            Op::Frame(name) => word(out, "frame.", name),
+            Op::Object(name) => word(out, "object.", name),
+            Op::Parameter(_) | Op::Literal(_) | Op::Resource(_) => out.push(self.leaf(expression).unwrap_or_default()),
         }
-        out
     }
+
+    fn print_call(&self, function: usize, expression: &Expression, out: &mut Text) {
+        let called = self.functions.names.get(&function).map_or("", String::as_str);
+        word(out, called, "(");
+        let operands = &expression.operands;
+        let ports = self.ports.get(&function);
+        let length: usize = operands.iter().map(|o| self.used(*o).len() + 2).sum();
+        let broken = length + called.len() + 1 + expression.name.len() > LINE;
+        for (i, operand) in operands.iter().enumerate() {
+            match (broken, i) {
+                (true, _) => out.push("\n        "),
+                (false, 0) => {}
+                (false, _) => out.push(" "),
+            }
+            let start = out.len();
+            self.append(out, *operand);
+            for node in expression.origins.iter() {
+                let port = ports.and_then(|p| p.get(i));
+                out.origin(start, &self.program.nodes[node].id, port);
+            }
+            if broken || i + 1 < operands.len() {
+                out.push(",");
+            }
+        }
+        out.push(if broken { "\n    )" } else { ")" });
+    }
+}
+
+fn word(out: &mut Text, first: &str, second: &str) {
+    out.push(first);
+    out.push(second);
 }
 
 /// `node, other node: Label`, and the light it is evaluated under.
 fn comment(program: &Program, expression: &Expression) -> String {
-    let names: Vec<&str> = expression.origins.iter().map(|n| program.nodes[*n].id.as_str()).collect();
-    let label = expression.origins.first().map_or("", |n| program.nodes[*n].label.as_str());
-    let light = expression.light.map_or_else(String::new, |l| format!(", lit by {}", program.nodes[l].id));
+    let mut out = String::with_capacity(64);
+    for (i, node) in expression.origins.iter().enumerate() {
+        if i > 0 {
+            out.push_str(", ");
+        }
+        out.push_str(&program.nodes[node].id);
+    }
+    out.push_str(": ");
+    out.push_str(expression.origins.first().map_or("", |n| program.nodes[n].definition.header.label.as_str()));
+    if let Some(light) = expression.light {
+        out.push_str(", lit by ");
+        out.push_str(&program.nodes[light].id);
+    }
     // Names may hold what would end a comment's line only if nobody checked them; labels are one line by their format.
-    format!("{}: {label}{light}", names.join(", ")).replace(char::is_control, " ")
+    if out.contains(char::is_control) { out.replace(char::is_control, " ") } else { out }
 }

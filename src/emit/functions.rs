@@ -178,7 +178,7 @@ fn first_users(program: &Program, reached: &Reached) -> BTreeMap<usize, usize> {
         if let Op::Call(function) | Op::Template { function: Some(function), .. } = expression.op
             && let Some(node) = expression.origins.first()
         {
-            users.entry(function).or_insert(*node);
+            users.entry(function).or_insert(node);
         }
     }
     users

@@ -15,6 +15,7 @@ mod stages;
 mod text;
 
 use std::collections::BTreeSet;
+use std::sync::Arc;
 
 use crate::diagnostic::Diagnostic;
 use crate::module::{Attribute, FRAME_WGSL, Module, OBJECT_WGSL};
@@ -80,13 +81,15 @@ fn reach(program: &Program, root: Id) -> Reached {
     }
     for id in &reached.order {
         let expression = program.get(*id);
-        for (position, operand) in expression.operands.iter().enumerate() {
+        let mut read = |position: usize| {
+            if let Some(operand) = expression.operands.get(position) {
+                reached.uses[operand.0 as usize] += 1;
+            }
+        };
+        match &expression.op {
             // A template that names an operand twice reads it twice.
-            let times = match &expression.op {
-                Op::Template { text, .. } => text::slots(text, position),
-                _ => 1,
-            };
-            reached.uses[operand.0 as usize] += times;
+            Op::Template { text, .. } => text::slots(text).for_each(read),
+            _ => (0..expression.operands.len()).for_each(&mut read),
         }
     }
     reached.uses[root.0 as usize] += 1;
@@ -149,7 +152,7 @@ pub fn emit(program: &Program, catalog: &Catalog, title: &str) -> (Module, Plan,
 /// The plan of what is reached, and for each program map its index in the plan.
 fn plan_of(program: &Program, reached: &Reached, catalog: &Catalog) -> (Plan, Vec<(usize, usize)>, Vec<Diagnostic>) {
     let mut maps: Vec<usize> = Vec::new();
-    let mut lights: BTreeSet<(String, usize)> = BTreeSet::new();
+    let mut lights: BTreeSet<(Arc<str>, usize)> = BTreeSet::new();
     for resource in &reached.resources {
         match resource {
             Resource::Map(index) => {

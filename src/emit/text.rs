@@ -1,9 +1,11 @@
 //! Text that remembers where its bytes come from, and the filling of templates.
 
+use std::sync::Arc;
+
 use crate::module::Origin;
 
 /// Text in the making.
-#[derive(Default)]
+#[derive(Clone, Default)]
 pub(crate) struct Text {
     text: String,
     origins: Vec<Origin>,
@@ -31,14 +33,22 @@ impl Text {
     }
 
     /// Says that everything since `start` comes from a node.
-    pub(crate) fn origin(&mut self, start: usize, node: &str, port: Option<&str>) {
-        self.add(Origin { start, end: self.text.len(), node: node.to_owned(), port: port.map(str::to_owned) });
+    pub(crate) fn origin(&mut self, start: usize, node: &Arc<str>, port: Option<&Arc<str>>) {
+        if start < self.text.len() {
+            self.origins.push(Origin { start, end: self.text.len(), node: node.clone(), port: port.cloned() });
+        }
     }
 
-    pub(crate) fn add(&mut self, origin: Origin) {
-        if origin.start < origin.end {
-            self.origins.push(origin);
-        }
+    /// Adds another text with its origins.
+    pub(crate) fn append(&mut self, other: &Self) {
+        let shift = self.text.len();
+        self.text.push_str(&other.text);
+        let moved = |o: &Origin| Origin { start: o.start + shift, end: o.end + shift, ..o.clone() };
+        self.origins.extend(other.origins.iter().map(moved));
+    }
+
+    pub(crate) fn as_str(&self) -> &str {
+        &self.text
     }
 
     pub(crate) fn finish(mut self) -> (String, Vec<Origin>) {
@@ -48,9 +58,9 @@ impl Text {
     }
 }
 
-/// How often the template reads operand `position`.
-pub(crate) fn slots(template: &str, position: usize) -> u32 {
-    parts(template).filter(|p| matches!(p, Part::Slot(i, _) if *i == position)).count().try_into().unwrap_or(u32::MAX)
+/// The operands that the template reads, as often as it does.
+pub(crate) fn slots(template: &str) -> impl Iterator<Item = usize> + '_ {
+    parts(template).filter_map(|p| if let Part::Slot(i, _) = p { Some(i) } else { None })
 }
 
 /// A piece of a template.
@@ -122,7 +132,6 @@ mod tests {
         let alone: Vec<bool> =
             parts("f($0, $1 * 2.0)").filter_map(|p| if let Part::Slot(_, a) = p { Some(a) } else { None }).collect();
         assert_eq!(alone, [true, false]);
-        assert_eq!(slots("$0 * $0 + $10", 0), 2);
-        assert_eq!(slots("$0 * $0 + $10", 10), 1);
+        assert_eq!(slots("$0 * $0 + $10").collect::<Vec<_>>(), [0, 0, 10]);
     }
 }

@@ -20,7 +20,7 @@ pub fn plan(program: &Program, used: &[usize], lights: &[usize], catalog: &Catal
             settings: spec.all_settings(&info.definition),
             views: spec.views(&info.definition),
         });
-        plan.lights.push(Light { name: info.id.clone(), space });
+        plan.lights.push(Light { name: info.id.to_string(), space });
     }
     for &index in used {
         let demand = &program.maps[index];
@@ -40,7 +40,7 @@ pub fn plan(program: &Program, used: &[usize], lights: &[usize], catalog: &Catal
                 }
             }
         }
-        let light = program.nodes[demand.light].id.clone();
+        let light = program.nodes[demand.light].id.to_string();
         plan.maps.push(Map { light, passes, filtered: demand.filtered });
     }
     (plan, out)
@@ -58,7 +58,7 @@ fn place(program: &Program, demand: &MapDemand) -> Place {
         matches!(words[..], ["//!", "map", port] if port.trim_end_matches(':') == demand.port).then_some(range)
     });
     let place = line.map_or_else(|| Place::file(&source.name), |range| Place::span(Span::new(source, range)));
-    place.node(info.id.clone()).port(demand.port.clone())
+    place.node(&*info.id).port(demand.port.clone())
 }
 
 /// One pass of a chain: none if it is left out, one per axis if it has axes.
@@ -94,7 +94,7 @@ fn expand(
                         d.message = format!("{} in the pass `{}`", d.message, file.name);
                         d.place = place(program, demand);
                     }
-                    d.place.node.get_or_insert_with(|| program.nodes[demand.node].id.clone());
+                    d.place.node.get_or_insert_with(|| program.nodes[demand.node].id.to_string());
                     d
                 });
                 // Each axis finds the same.

@@ -7,6 +7,7 @@ use crate::semantic::Quantity;
 use crate::weave::{Root, Wire, Woven, is_light, is_lit, is_shadow, is_surface};
 
 use std::collections::{BTreeMap, BTreeSet};
+use std::sync::Arc;
 
 /// The program of a woven tree.
 pub fn build(woven: &Woven, bake: Bake, unshadowed: bool) -> Program {
@@ -16,16 +17,17 @@ pub fn build(woven: &Woven, bake: Bake, unshadowed: bool) -> Program {
     for node in &woven.nodes {
         *count.entry(&node.id[last(&node.id)..]).or_default() += 1;
     }
-    let short = |id: &str| if count[&id[last(id)..]] == 1 { id[last(id)..].to_owned() } else { id.to_owned() };
+    let short = |id: &Arc<str>| match last(id) {
+        0 => id.clone(),
+        at if count[&id[at..]] == 1 => id[at..].into(),
+        _ => id.clone(),
+    };
     program.nodes = woven
         .nodes
         .iter()
-        .map(|n| NodeInfo {
-            id: n.id.clone(),
-            short: short(&n.id),
-            label: n.definition.header.label.clone(),
-            definition: n.definition.clone(),
-            generic: n.generic.clone(),
+        .map(|n| {
+            let id: Arc<str> = n.id.as_str().into();
+            NodeInfo { short: short(&id), id, definition: n.definition.clone(), generic: n.generic.clone() }
         })
         .collect();
     let mut worth: Vec<Worth> = Vec::with_capacity(woven.nodes.len());

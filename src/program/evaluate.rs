@@ -1,6 +1,6 @@
 //! Calls of node functions: arguments from wires, in the context of a light or of none.
 
-use super::{Bake, Id, Instance, MapDemand, Op, Parameter, Program, Resource, sampler_settings};
+use super::{Bake, Id, MapDemand, Op, Parameter, Program, Resource, sampler_settings};
 use crate::module::stored;
 use crate::node::{Default, Definition, Port, rename};
 use crate::semantic::{Chain, Kind, Quantity, Shape, Value};
@@ -60,7 +60,6 @@ impl Program {
     pub(crate) fn call(&mut self, context: &Context<'_>, ambient: bool) -> Option<Vec<Id>> {
         let node = context.node();
         let definition = node.definition.clone();
-        let instance = Instance { definition: definition.clone(), generic: node.generic.clone(), ambient };
         let function = match &definition.ambient {
             Some(function) if ambient => function,
             _ => &definition.main,
@@ -70,7 +69,7 @@ impl Program {
             arguments.push(self.argument(context, port)?);
         }
         let inline = function.body.as_ref().filter(|_| definition.header.inline);
-        let index = self.function(instance);
+        let index = self.function(&definition, node.generic.as_ref(), ambient);
         let name = self.result_name(context, function, ambient);
         let op = match inline {
             Some(body) => Op::Template { text: self.inline_text(index, body), function: Some(index) },
@@ -89,8 +88,7 @@ impl Program {
             return Some(vec![id]);
         }
         let member = |program: &mut Self, port: &Port| {
-            let name = format!("{name}_{}", port.name);
-            program.add(Op::Member(port.name.as_str().into()), vec![id], &name, Some(context.index))
+            program.add(Op::Member(port.name.as_str().into()), vec![id], "", Some(context.index))
         };
         Some(function.outputs.iter().map(|p| member(self, p)).collect())
     }
@@ -179,8 +177,12 @@ impl Program {
     /// The value after a chain of conversions.
     pub(crate) fn converted(&mut self, value: Id, chain: &Chain, origin: Option<usize>, port: &str) -> Id {
         let mut value = value;
+        if chain.steps.is_empty() {
+            return value;
+        }
+        let word = self.word(port);
         for step in &chain.steps {
-            let base = self.get(value).name.clone();
+            let base = self.name(value);
             let mut text = String::new();
             let mut operands = vec![value];
             // `$` is the value, `@name` a source.
@@ -207,7 +209,9 @@ impl Program {
             let expression = &mut self.expressions[value.0 as usize];
             expression.shape = Some(step.to.shape.clone());
             expression.origins.extend(origin);
-            expression.port.get_or_insert_with(|| port.into());
+            if expression.port.is_none() {
+                expression.port = Some(word.clone());
+            }
         }
         value
     }
@@ -242,23 +246,40 @@ impl Program {
         let default = matches!(&port.default, Some(Default::Value(d)) if d == value);
         let constant = self.bake == Bake::All || (self.bake == Bake::Defaults && default);
         let constant = constant && !space_inputs(definition).contains(&port.name);
-        let shape = self.shape_of(node, port);
         if constant {
+            let shape = self.shape_of(node, port);
             let text = literal(&shape, port, value);
             return self.add(Op::Literal(text.into()), Vec::new(), &port.name, Some(node));
         }
         let index = self.parameter_slot(node, port, value);
-        let name = format!("{}_{}", self.nodes[node].short, port.name);
-        self.add(Op::Parameter(index), Vec::new(), &name, Some(node))
+        self.add(Op::Parameter(index), Vec::new(), "", Some(node))
+    }
+
+    /// The name of an expression's value.
+    fn name(&self, id: Id) -> Rc<str> {
+        let expression = self.get(id);
+        match &expression.op {
+            Op::Parameter(index) => {
+                let Parameter { node, port, .. } = &self.parameters[*index];
+                format!("{}_{port}", self.nodes[*node].short).into()
+            }
+            Op::Member(member) => format!("{}_{member}", self.get(expression.operands[0]).name).into(),
+            _ => expression.name.clone(),
+        }
     }
 
     /// The index of the parameter for an input.
     pub(crate) fn parameter_slot(&mut self, node: usize, port: &Port, value: &Value) -> usize {
-        let key = (node, port.name.clone());
-        *self.parameter_index.entry(key).or_insert_with(|| {
-            self.parameters.push(Parameter { node, port: port.name.clone(), value: value.clone() });
-            self.parameters.len() - 1
-        })
+        if self.slots.len() <= node {
+            self.slots.resize(self.nodes.len().max(node + 1), Vec::new());
+        }
+        if let Some(known) = self.slots[node].iter().find(|i| *self.parameters[**i].port == port.name) {
+            return *known;
+        }
+        self.slots[node].push(self.parameters.len());
+        let name = self.word(&port.name);
+        self.parameters.push(Parameter { node, port: name, value: value.clone() });
+        self.parameters.len() - 1
     }
 
     /// The shape of an input once `T` is chosen.
@@ -296,22 +317,27 @@ impl Program {
     /// A name for the result of a node: the node's, with the light's and the output's where they say more.
     fn result_name(&self, context: &Context<'_>, function: &crate::node::Function, ambient: bool) -> String {
         let node = context.node();
-        let mut name = self.nodes[context.index].short.clone();
+        let mut name = self.nodes[context.index].short.to_string();
         if let Some(light) = context.light
             && (!is_shadow(&node.definition) || node.lights.len() > 1)
             && !is_light(&node.definition)
         {
-            name = format!("{name}_under_{}", self.nodes[light].short);
+            name.push_str("_under_");
+            name.push_str(&self.nodes[light].short);
         }
         if ambient {
             name.push_str("_ambient");
         }
         match function.outputs.as_slice() {
             [one] if function.result_struct.is_none() && !matches!(one.name.as_str(), "value" | "result") => {
-                if name.ends_with(&one.name) { name } else { format!("{name}_{}", one.name) }
+                if !name.ends_with(&one.name) {
+                    name.push('_');
+                    name.push_str(&one.name);
+                }
             }
-            _ => name,
+            _ => {}
         }
+        name
     }
 }
 

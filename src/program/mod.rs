@@ -6,18 +6,24 @@
 
 mod build;
 mod evaluate;
+mod origins;
 mod source;
 mod views;
 
-use std::collections::{BTreeMap, BTreeSet, HashMap};
+use std::collections::BTreeMap;
+use std::hash::BuildHasher;
 use std::rc::Rc;
 use std::sync::Arc;
+
+use foldhash::fast::RandomState;
+use foldhash::{HashMap, HashSet};
 
 use crate::module::{Address, SamplerSettings};
 use crate::node::{Definition, Function};
 use crate::semantic::{Conversions, Shape, Value};
 
 pub use build::build;
+pub use origins::Origins;
 
 /// Index of an expression; operands have smaller indices than what uses them.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -100,12 +106,12 @@ pub struct Expression {
     pub op: Op,
     /// To what.
     pub operands: Vec<Id>,
-    /// A name for its value.
+    /// A name for its value; empty for parameters and members, which never need a line.
     pub name: Rc<str>,
     /// Nodes that it stands for, by index into `nodes`.
-    pub origins: BTreeSet<usize>,
+    pub origins: Origins,
     /// The port of the first such node that it feeds, for conversions.
-    pub port: Option<Rc<str>>,
+    pub port: Option<Arc<str>>,
     /// What carries its value, where that is known and no structure.
     pub shape: Option<Shape>,
     /// Whether it is the result of a node, and so gets a line of its own.
@@ -141,7 +147,7 @@ pub struct Parameter {
     /// Index of the node.
     pub node: usize,
     /// Name of the input.
-    pub port: String,
+    pub port: Arc<str>,
     /// Value from the graph or the node's default.
     pub value: Value,
 }
@@ -167,11 +173,9 @@ pub struct MapDemand {
 #[derive(Clone, Debug)]
 pub struct NodeInfo {
     /// Name among all graphs.
-    pub id: String,
+    pub id: Arc<str>,
     /// The last part of the name where that is unique, else all of it.
-    pub short: String,
-    /// Label of its definition.
-    pub label: String,
+    pub short: Arc<str>,
     /// Its definition.
     pub definition: Arc<Definition>,
     /// What `T` stands for.
@@ -193,9 +197,16 @@ pub struct Program {
     pub nodes: Vec<NodeInfo>,
     /// The `vec3f` that is written.
     pub root: Option<Id>,
-    known: HashMap<(Op, Vec<Id>), Id>,
+    /// By hash of operation and operands, or the next number that was free.
+    known: HashMap<u64, Id>,
+    hasher: RandomState,
+    nameless: Rc<str>,
     function_index: HashMap<String, usize>,
-    parameter_index: HashMap<(usize, String), usize>,
+    /// What `function_index` says, by address: the nodes keep every definition where it is.
+    function_at: HashMap<(usize, Option<Shape>, bool), usize>,
+    /// Parameters of each node.
+    slots: Vec<Vec<usize>>,
+    words: HashSet<Arc<str>>,
     inline_texts: HashMap<usize, Rc<str>>,
     conversions: Conversions,
     bake: Bake,
@@ -217,19 +228,21 @@ pub enum Bake {
 impl Program {
     /// The expression that does `op` to `operands`: an existing one if there is one.
     pub fn add(&mut self, op: Op, operands: Vec<Id>, name: &str, origin: Option<usize>) -> Id {
-        let key = (op, operands);
-        if let Some(&id) = self.known.get(&key) {
-            self.expressions[id.0 as usize].origins.extend(origin);
-            return id;
+        let mut key = self.hasher.hash_one((&op, &operands));
+        while let Some(&id) = self.known.get(&key) {
+            let known = &mut self.expressions[id.0 as usize];
+            if known.op == op && known.operands == operands {
+                known.origins.extend(origin);
+                return id;
+            }
+            key = key.wrapping_add(1);
         }
         let id = Id(u32::try_from(self.expressions.len()).expect("bounded by the limits on nodes"));
-        let (op, operands) = key.clone();
-        let origins = origin.into_iter().collect();
         self.expressions.push(Expression {
             op,
             operands,
-            name: name.into(),
-            origins,
+            name: if name.is_empty() { self.nameless.clone() } else { name.into() },
+            origins: origin.into_iter().collect(),
             port: None,
             shape: None,
             result: false,
@@ -262,7 +275,29 @@ impl Program {
         &self.expressions[id.0 as usize]
     }
 
-    fn function(&mut self, instance: Instance) -> usize {
+    /// A word that many share, such as the name of a port.
+    fn word(&mut self, word: &str) -> Arc<str> {
+        if let Some(known) = self.words.get(word) {
+            return known.clone();
+        }
+        let shared: Arc<str> = word.into();
+        self.words.insert(shared.clone());
+        shared
+    }
+
+    fn function(&mut self, definition: &Arc<Definition>, generic: Option<&Shape>, ambient: bool) -> usize {
+        let at = (Arc::as_ptr(definition) as usize, generic.cloned(), ambient);
+        if let Some(known) = self.function_at.get(&at) {
+            return *known;
+        }
+        let instance = Instance { definition: definition.clone(), generic: generic.cloned(), ambient };
+        let index = self.function_like(instance);
+        self.function_at.insert(at, index);
+        index
+    }
+
+    /// Equal definitions are one function, wherever they were read.
+    fn function_like(&mut self, instance: Instance) -> usize {
         let d = &instance.definition;
         let key = format!(
             "{}\n{}\n{:?}\n{:?}\n{}",
