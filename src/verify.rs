@@ -1,6 +1,7 @@
 //! Proves a module with naga: parsed, and validated in full, for what every WebGPU device can do.
 
 use std::ops::Range;
+use std::panic::{AssertUnwindSafe, catch_unwind};
 
 use naga::valid::{Capabilities, ModuleInfo, ValidationFlags, Validator};
 
@@ -23,7 +24,50 @@ pub struct Verified {
 /// Parses and validates a module with every check on and no optional capability allowed. Each error names the node and
 /// the port that the WGSL came from. It is an internal error unless the text came from a node that a person wrote.
 pub fn verify(module: &Module) -> Result<Verified, Vec<Diagnostic>> {
-    on_large_stack(|| check(&module.wgsl)).and_then(|r| r).map_err(|fault| fault.report(module))
+    let checked = if is_shallow(&module.wgsl) {
+        // A thread costs as much as a short module does.
+        catch_unwind(AssertUnwindSafe(|| check(&module.wgsl))).map_err(|_| stopped())
+    } else {
+        on_large_stack(|| check(&module.wgsl))
+    };
+    checked.and_then(|r| r).map_err(|fault| fault.report(module))
+}
+
+/// Deepest brackets, and most operators in a statement, with which naga needs no more than half a small stack (2 MiB):
+/// it recurses over both, at no more than 8 KiB a level with optimisation off.
+const SHALLOW: usize = 64;
+/// Most declarations, which naga sorts by recursion over what they mention.
+const FEW: usize = 512;
+
+/// Whether naga can take a text without recursing deeply. Comments count as if they were code, which errs on the safe
+/// side: an end of a statement in a comment is followed by the end of the line, never by more of a statement.
+fn is_shallow(wgsl: &str) -> bool {
+    let (mut depth, mut operators, mut declarations) = (0_usize, 0_usize, 0_usize);
+    for byte in wgsl.bytes() {
+        match byte {
+            b'(' | b'[' => depth += 1,
+            b')' | b']' => depth = depth.saturating_sub(1),
+            b'+' | b'-' | b'*' | b'/' | b'%' | b'&' | b'|' | b'^' | b'<' | b'>' | b'=' | b'!' | b'~' => operators += 1,
+            b'{' | b'}' | b';' => {
+                operators = 0;
+                match byte {
+                    b'{' => depth += 1,
+                    b'}' => depth = depth.saturating_sub(1),
+                    _ => {}
+                }
+                declarations += usize::from(depth == 0);
+            }
+            _ => continue,
+        }
+        if depth > SHALLOW || operators > SHALLOW || declarations > FEW {
+            return false;
+        }
+    }
+    true
+}
+
+fn stopped() -> Fault {
+    Fault::new("naga stopped unexpectedly")
 }
 
 /// Runs `work` on a thread whose stack holds the deepest module, and turns a panic there into a fault.
@@ -31,7 +75,7 @@ pub(crate) fn on_large_stack<T: Send>(work: impl FnOnce() -> T + Send) -> Result
     std::thread::scope(|scope| {
         let spawned = std::thread::Builder::new().name("naga".into()).stack_size(STACK_BYTES).spawn_scoped(scope, work);
         let thread = spawned.map_err(|e| Fault::new(format!("no thread for validation: {e}")))?;
-        thread.join().map_err(|_| Fault::new("naga stopped unexpectedly"))
+        thread.join().map_err(|_| stopped())
     })
 }
 
@@ -124,6 +168,30 @@ mod tests {
         let wgsl = "@fragment fn fs_main() -> @location(0) vec4f { return vec4f(1.0); }\n";
         let verified = verify(&Module { wgsl: wgsl.into(), ..Module::default() }).expect("valid");
         assert_eq!(verified.module.entry_points.len(), 1);
+    }
+
+    #[test]
+    fn what_is_deep_is_known_before() {
+        assert!(is_shallow("fn a(x: f32) -> f32 { let y = (x + 1.0) * 2.0; return y; }\n"));
+        let brackets = format!("fn a() -> f32 {{ return {}1.0{}; }}", "(".repeat(80), ")".repeat(80));
+        let sum = format!("fn a() -> f32 {{ return 1.0{}; }}", " + 1.0".repeat(80));
+        let many: String = (0..600).map(|i| format!("const C{i} = 1.0;\n")).collect();
+        for deep in [brackets, sum, many] {
+            assert!(!is_shallow(&deep), "{deep}");
+        }
+        let statements = format!("fn a() {{ {} }}", "let b = 1.0 + 2.0; ".repeat(600));
+        assert!(is_shallow(&statements));
+        // What is not deep by that measure fits in half of the smallest stack, unoptimised.
+        let edge = format!(
+            "@fragment fn a() -> @location(0) vec4f {{ return vec4f({}1.0{}{}); }}",
+            "abs(".repeat(SHALLOW - 4),
+            ")".repeat(SHALLOW - 4),
+            " + 1.0".repeat(SHALLOW - 4)
+        );
+        assert!(is_shallow(&edge));
+        let work = move || check(&edge).is_ok();
+        let thread = std::thread::Builder::new().stack_size(1 << 20).spawn(work).expect("a thread");
+        assert!(thread.join().expect("no panic"));
     }
 
     #[test]

@@ -71,7 +71,12 @@ impl Work<'_> {
         let blind = refused || incoming.iter().any(|l| self.done[l.from].is_none());
         self.pinned(&incoming, &mut inputs, out);
         self.under_lights(&mut inputs);
-        let fed_by_light = |link: &&Link| self.lights.iter().any(|(l, s)| *l == link.from || s.contains(&link.from));
+        // A shadow is between this node and a light if one of its own lights has it on the way.
+        let on_the_way = |from: usize| {
+            let own = self.done[from].as_ref().map(|n| &n.lights).into_iter().flat_map(|l| l.keys());
+            own.filter_map(|light| self.lights.get(light)).any(|shadows| shadows.contains(&from))
+        };
+        let fed_by_light = |link: &&Link| self.lights.contains_key(&link.from) || on_the_way(link.from);
         let open: Vec<&Link> = incoming
             .iter()
             .copied()

@@ -123,8 +123,9 @@ fn seen(
     out: &mut Vec<Diagnostic>,
 ) -> Option<Root> {
     let mut ends: Vec<(usize, Option<String>)> = Vec::new();
+    let followers = Followers::of(collected);
     for index in 0..graphs.len() {
-        ends.extend(exports(graphs, index, collected, out)?);
+        ends.extend(exports(graphs, index, collected, &followers, out)?);
     }
     let is = |i: usize, what: fn(&crate::node::Definition) -> bool| {
         collected.nodes[i].definition.as_deref().is_some_and(what)
@@ -171,18 +172,13 @@ fn exports(
     graphs: &[NamedGraph],
     index: usize,
     collected: &Collected,
+    followers: &Followers,
     out: &mut Vec<Diagnostic>,
 ) -> Option<Vec<(usize, Option<String>)>> {
     let named = &graphs[index];
     let own: Vec<usize> = (0..collected.nodes.len()).filter(|i| collected.nodes[*i].graph == index).collect();
-    let feeds: std::collections::BTreeSet<usize> = collected.links.iter().map(|l| l.from).collect();
     let Some(end) = &named.graph.output else {
-        return Some(
-            own.into_iter()
-                .filter(|i| !feeds.contains(i) || is_end_lamp(*i, index, collected))
-                .map(|i| (i, None))
-                .collect(),
-        );
+        return Some(own.into_iter().filter(|i| followers.ends(*i, collected)).map(|i| (i, None)).collect());
     };
     let id = super::collect::identifier(graphs, index, &end.node);
     let found = own.iter().copied().find(|i| collected.nodes[*i].id == id);
@@ -197,10 +193,28 @@ fn exports(
     found.map(|i| vec![(i, end.port.clone())])
 }
 
-/// A lamp that feeds only other graphs ends its own program.
-fn is_end_lamp(node: usize, graph: usize, collected: &Collected) -> bool {
-    collected.nodes[node].definition.as_deref().is_some_and(is_lamp)
-        && collected.links.iter().filter(|l| l.from == node).all(|l| collected.nodes[l.to].graph != graph)
+/// Which nodes feed any, and which feed one of their own graph.
+struct Followers {
+    any: Vec<bool>,
+    own: Vec<bool>,
+}
+
+impl Followers {
+    fn of(collected: &Collected) -> Self {
+        let none = vec![false; collected.nodes.len()];
+        let mut followers = Self { any: none.clone(), own: none };
+        for link in &collected.links {
+            followers.any[link.from] = true;
+            followers.own[link.from] |= collected.nodes[link.from].graph == collected.nodes[link.to].graph;
+        }
+        followers
+    }
+
+    /// Whether a node ends the program of its graph: it feeds nothing, or is a lamp that feeds only other graphs.
+    fn ends(&self, node: usize, collected: &Collected) -> bool {
+        let lamp = || collected.nodes[node].definition.as_deref().is_some_and(is_lamp);
+        !self.any[node] || (!self.own[node] && lamp())
+    }
 }
 
 fn finish(

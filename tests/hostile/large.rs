@@ -193,3 +193,18 @@ fn huge_strings_and_numbers_are_read_or_refused() {
     let many = vec!["1"; 100_000].join(", ");
     make(&with(&format!("params: {{\"color\": ({many})}}"))).fails();
 }
+
+#[test]
+fn ten_thousand_lights_on_one_surface_take_no_quadratic_time() {
+    // Who looked through all lights for each link, or through all links for each light, would take minutes here.
+    let lights = (0..10_000).map(|i| format!("\"l{i}\": (kind: \"point_light\")"));
+    let links = (0..10_000).map(|i| format!("l{i} -> body"));
+    let text = graph(lights.chain(["\"body\": (kind: \"lambert\")".to_owned()]), links);
+    let wgsl = make(&text).works();
+    assert_eq!(wgsl.matches(" = lambert(").count(), 10_000);
+    // The same through a shadow each.
+    let nodes = (0..500).map(|i| format!("\"l{i}\": (kind: \"spot_light\"), \"s{i}\": (kind: \"hard_shadow\")"));
+    let links = (0..500).flat_map(|i| [format!("l{i} -> s{i}"), format!("s{i} -> body")]);
+    let text = graph(nodes.chain(["\"body\": (kind: \"lambert\")".to_owned()]), links);
+    assert_eq!(make(&text).works().matches(" = hard_shadow(").count(), 500);
+}
