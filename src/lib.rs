@@ -1,6 +1,7 @@
 //! shadetree: weaves abstract shade trees into WGSL.
 
 pub mod diagnostic;
+mod hash;
 pub mod semantic;
 pub mod ron;
 pub mod graph;

@@ -1,7 +1,7 @@
 //! Laws that shadows obey, on a real adapter with woven modules, against float64.
 
 mod adapters;
-mod lamp;
+pub(crate) mod lamp;
 mod lights;
 mod percentage;
 mod planar;

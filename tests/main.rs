@@ -15,6 +15,8 @@ mod matrix;
 #[cfg(feature = "render")]
 mod minimal;
 #[cfg(feature = "render")]
+mod stability;
+#[cfg(feature = "render")]
 mod stage;
 mod support;
 mod tint;

@@ -61,7 +61,11 @@ pub(crate) struct Item {
 
 impl Item {
     pub(crate) fn new(shape: &Shape, place: DMat4) -> Self {
-        Self { mesh: shape.mesh().expect("a primitive"), place, casts: true, receives: true }
+        Self::of(shape.mesh().expect("a primitive"), place)
+    }
+
+    pub(crate) fn of(mesh: Mesh, place: DMat4) -> Self {
+        Self { mesh, place, casts: true, receives: true }
     }
 
     /// A horizontal rectangle.

@@ -2,7 +2,7 @@
 
 use std::sync::OnceLock;
 
-use foldhash::{HashMap, HashSet};
+use crate::hash::{HashMap, HashSet};
 
 use crate::node::is_reserved;
 

@@ -1,6 +1,6 @@
 //! What can be wrong with a graph without knowing its nodes.
 
-use foldhash::HashMap;
+use crate::hash::HashMap;
 
 use super::read::Report;
 use super::{End, Graph, Link};

@@ -16,7 +16,7 @@ use std::rc::Rc;
 use std::sync::Arc;
 
 use foldhash::fast::RandomState;
-use foldhash::{HashMap, HashSet};
+use crate::hash::{HashMap, HashSet};
 
 use crate::module::{Address, SamplerSettings};
 use crate::node::{Definition, Function};

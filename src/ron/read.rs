@@ -3,7 +3,7 @@
 use std::ops::Range;
 use std::sync::Arc;
 
-use foldhash::{HashSet, HashSetExt};
+use crate::hash::HashSet;
 
 use super::scan::fatal;
 use super::{Field, MAX_BYTES, MAX_DEPTH, MAX_ERRORS, MAX_VALUES, Node, Tree};
@@ -258,7 +258,7 @@ impl Reader<'_> {
     fn fields(&mut self) -> Result<Vec<Field>, Mistake> {
         let mut fields = Vec::new();
         // Few fields are found sooner by looking at each.
-        let mut names = HashSet::new();
+        let mut names = HashSet::default();
         self.series(')', |reader| {
             let start = reader.at;
             let Some(name) = reader.identifier() else {
@@ -285,7 +285,7 @@ impl Reader<'_> {
     fn map(&mut self) -> Result<Tree, Mistake> {
         self.at += 1;
         let mut entries: Vec<(Node, Node)> = Vec::new();
-        let mut keys = HashSet::new();
+        let mut keys = HashSet::default();
         self.series('}', |reader| {
             let key = reader.value()?;
             reader.colon()?;

@@ -10,7 +10,7 @@ use std::cell::RefCell;
 use std::collections::BTreeMap;
 use std::rc::Rc;
 
-use foldhash::{HashMap, HashMapExt};
+use crate::hash::HashMap;
 use petgraph::algo::{astar, dijkstra};
 use petgraph::graph::{DiGraph, NodeIndex};
 
@@ -203,7 +203,7 @@ struct Reach {
 impl Reach {
     fn from(source: &Type) -> Self {
         let mut graph = DiGraph::new();
-        let mut index = HashMap::new();
+        let mut index = HashMap::default();
         index.insert(source.clone(), graph.add_node(source.clone()));
         let mut open = vec![source.clone()];
         while let Some(ty) = open.pop() {

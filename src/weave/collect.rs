@@ -3,7 +3,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
-use foldhash::{HashMap, HashMapExt};
+use crate::hash::HashMap;
 use petgraph::algo::toposort;
 use petgraph::graph::{DiGraph, NodeIndex};
 
@@ -52,7 +52,7 @@ pub(crate) fn collect(graphs: &[NamedGraph], catalog: &Catalog, out: &mut Vec<Di
     let mut collected = Collected { nodes: Vec::new(), links: Vec::new(), incoming: Vec::new() };
     for (index, named) in graphs.iter().enumerate() {
         check_overrides(named, out);
-        let mut position = HashMap::new();
+        let mut position = HashMap::default();
         for (name, node) in &named.graph.nodes {
             if node.muted {
                 continue;
@@ -99,7 +99,7 @@ pub(crate) fn collect(graphs: &[NamedGraph], catalog: &Catalog, out: &mut Vec<Di
 fn bypass(graph: &graph::Graph) -> Vec<(&graph::Link, graph::End, graph::End)> {
     let muted = |name: &str| graph.nodes.get(name).is_some_and(|n| n.muted);
     // One source is enough to heal a wire; of several the first feeds on, as their order is by name.
-    let mut source: HashMap<&str, Option<&graph::End>> = HashMap::new();
+    let mut source: HashMap<&str, Option<&graph::End>> = HashMap::default();
     for link in graph.links.iter().filter(|l| muted(&l.to.node)) {
         source.entry(&link.to.node).or_insert(Some(&link.from));
     }

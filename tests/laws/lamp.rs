@@ -8,20 +8,20 @@ use shadetree::render::Gpu;
 use crate::stage::{Item, Stage, View, light, visibility};
 
 /// Texels of the maps, on a side.
-pub(super) const SIDE: f64 = 256.0;
+pub(crate) const SIDE: f64 = 256.0;
 /// One 8-bit step.
-pub(super) const STEP: f64 = 1.0 / 255.0;
+pub(crate) const STEP: f64 = 1.0 / 255.0;
 /// What float32 may differ from float64 by: positions are known to some 1e-7 of the scene, which is 1e-4 texel.
-pub(super) const CLOSED_FORM: f64 = 5e-4;
+pub(crate) const CLOSED_FORM: f64 = 5e-4;
 
 /// What a filtering sampler may differ from float64 by: devices may round its weights to 1/256; Vulkan's lavapipe does not.
-pub(super) fn sampled(gpu: &Gpu) -> f64 {
+pub(crate) fn sampled(gpu: &Gpu) -> f64 {
     if gpu.adapter().software && gpu.adapter().backend == "vulkan" { CLOSED_FORM } else { STEP }
 }
 
 /// A light straight above the ground with its map of 256 texels, and how the ground lies on it.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum Lamp {
+pub(crate) enum Lamp {
     /// Parallel; the map covers 2 m.
     Sun,
     /// From 4 m above, opening 2 m wide at each metre; near 1, range 5.
@@ -29,9 +29,9 @@ pub(super) enum Lamp {
 }
 
 impl Lamp {
-    pub(super) const BOTH: [Self; 2] = [Self::Sun, Self::Spot];
+    pub(crate) const BOTH: [Self; 2] = [Self::Sun, Self::Spot];
 
-    pub(super) fn kind(self) -> (&'static str, &'static str) {
+    pub(crate) fn kind(self) -> (&'static str, &'static str) {
         match self {
             Self::Sun => ("directional_light", "\"direction\": (0, -1, 0), \"radius\": 1"),
             Self::Spot => (
@@ -42,7 +42,7 @@ impl Lamp {
     }
 
     /// Metres per texel at a height above the ground.
-    pub(super) fn texel(self, height: f64) -> f64 {
+    pub(crate) fn texel(self, height: f64) -> f64 {
         match self {
             Self::Sun => 2.0 / SIDE,
             Self::Spot => 2.0 * (4.0 - height) / SIDE,
@@ -50,7 +50,7 @@ impl Lamp {
     }
 
     /// Depth at a height, where the highest object is at 1.
-    pub(super) fn depth(self, height: f64) -> f64 {
+    pub(crate) fn depth(self, height: f64) -> f64 {
         match self {
             // The range is fitted with a margin of a thousandth of the radius.
             Self::Sun => (1.0 + 0.001 - height) / 1.002,
@@ -59,34 +59,34 @@ impl Lamp {
     }
 
     /// The texel position of a point of the ground.
-    pub(super) fn at(self, point: DVec3) -> (f64, f64) {
+    pub(crate) fn at(self, point: DVec3) -> (f64, f64) {
         (SIDE / 2.0 + point.x / self.texel(0.0), SIDE / 2.0 - point.z / self.texel(0.0))
     }
 
-    pub(super) fn shadow(self, kind: &str, params: &str, options: &str) -> Compiled {
+    pub(crate) fn shadow(self, kind: &str, params: &str, options: &str) -> Compiled {
         let (lamp, at) = self.kind();
         visibility(&light(lamp, at, kind, params, &format!("\"size\": \"256\", {options}")))
     }
 }
 
-pub(super) fn pcf(lamp: Lamp, weights: &str, width: usize, taps: &str) -> Compiled {
+pub(crate) fn pcf(lamp: Lamp, weights: &str, width: usize, taps: &str) -> Compiled {
     let options = format!("\"width\": \"{width}\", \"weights\": \"{weights}\", \"taps\": \"{taps}\"");
     lamp.shadow("pcf_shadow", "", &options)
 }
 
-pub(super) fn vsm(lamp: Lamp, weights: &str, width: usize, rest: &str) -> Compiled {
+pub(crate) fn vsm(lamp: Lamp, weights: &str, width: usize, rest: &str) -> Compiled {
     let options = format!("\"width\": \"{width}\", \"weights\": \"{weights}\", {rest}");
     lamp.shadow("variance_shadow", "\"bleeding_reduction\": 0, \"minimum_variance\": 0.000001", &options)
 }
 
-pub(super) const PLAIN: &str = "\"mips\": \"off\", \"filter\": \"linear\", \"anisotropy\": \"1\"";
+pub(crate) const PLAIN: &str = "\"mips\": \"off\", \"filter\": \"linear\", \"anisotropy\": \"1\"";
 
 /// A plate at a height whose right edge lies `edge` texels right of the middle of the map and runs at `angle` to its
 /// columns, turned about the light's axis; it reaches far to the left.
-pub(super) struct Plate {
-    pub(super) height: f64,
-    pub(super) edge: f64,
-    pub(super) angle: f64,
+pub(crate) struct Plate {
+    pub(crate) height: f64,
+    pub(crate) edge: f64,
+    pub(crate) angle: f64,
 }
 
 impl Plate {
@@ -103,7 +103,7 @@ impl Plate {
 }
 
 /// Plates over the ground, seen from below them: a strip of `texels` texels around the edge of the first.
-pub(super) fn under(lamp: Lamp, plates: &[Plate], texels: f64, size: (u32, u32)) -> Stage {
+pub(crate) fn under(lamp: Lamp, plates: &[Plate], texels: f64, size: (u32, u32)) -> Stage {
     let lowest = plates.iter().map(|p| p.height).fold(1.0, f64::min);
     let (sine, cosine) = plates[0].angle.sin_cos();
     let middle = plates[0].edge * lamp.texel(0.0);
@@ -114,6 +114,6 @@ pub(super) fn under(lamp: Lamp, plates: &[Plate], texels: f64, size: (u32, u32))
 }
 
 /// The same in float64.
-pub(super) fn layers(lamp: Lamp, plates: &[Plate]) -> Layers {
+pub(crate) fn layers(lamp: Lamp, plates: &[Plate]) -> Layers {
     Layers { receiver: lamp.depth(0.0), layers: plates.iter().map(|p| p.layer(lamp)).collect() }
 }

@@ -1,0 +1,186 @@
+//! Depths that are not there, or not numbers: empty maps, receivers that do not cast, broken triangles.
+
+use glam::{DMat4, DVec3, Vec2, Vec3, Vec4};
+use shadetree::reference::{Weights, chebyshev, edge_visibility, kernel};
+use shadetree::render::Gpu;
+use shadetree::scene::{Mesh, Shape};
+
+use super::bench::{Numbers, SHADOWS, least, most};
+use super::bleeding::WEIGHTS;
+use super::table::{Bound, Table};
+use crate::laws::lamp::{CLOSED_FORM, Lamp, PLAIN, Plate, SIDE, pcf, under, vsm};
+use crate::stage::{Item, Stage, View, gpu, light, visibility};
+
+/// What a map holds where nothing was drawn is as far as can be.
+#[test]
+fn empty_maps_hold_the_far_plane() {
+    let Some(mut gpu) = gpu() else { return };
+    let mut table = Table::new(
+        "far_clear",
+        "A ground that receives but does not cast, under nothing, and under the edge of a plate 1 m above it, in a\nspotlight from 4 m that reaches 5 m: beside the plate the map holds the far plane, a quarter of the range behind.\nA map cleared to 0 would darken all of it.",
+        WEIGHTS,
+        (2e-3, 0.0),
+    );
+    for lamp in Lamp::BOTH {
+        for shadow in SHADOWS {
+            let mut ground = Item::plane([16.0, 16.0], DMat4::IDENTITY);
+            ground.casts = false;
+            let stage = Stage::new(vec![ground], View::down((0.0, 0.0), 0.8, 1.6, (32, 32)));
+            let (kind, at) = lamp.kind();
+            let values = stage.look(&mut gpu, &visibility(&light(kind, at, shadow, "", "")));
+            let what = format!("{lamp:?}, nothing casts, {shadow}: darkest");
+            table.row(what, "lit", least(&values), Bound::Least(1.0 - 1e-6));
+        }
+    }
+    let mut stage = under(Lamp::Spot, &[Plate { height: 1.0, edge: 4.0, angle: 0.0 }], 16.0, (320, 2));
+    stage.items[0].casts = false;
+    let kernel = kernel(Weights::Gaussian, 5);
+    let truth = |p: DVec3| edge_visibility(&kernel, Lamp::Spot.at(p).0 - SIDE / 2.0 - 4.0);
+    let compared = stage.look(&mut gpu, &pcf(Lamp::Spot, "gaussian", 5, "bilinear"));
+    let off: Vec<f64> = stage.on_ground(&compared).map(|(p, v)| (v - truth(p)).abs()).collect();
+    table.row("edge, pcf_shadow: largest error", "T4", most(&off), Bound::Most(CLOSED_FORM));
+    let (near, receiver, far) = (Lamp::Spot.depth(1.0), Lamp::Spot.depth(0.0), 1.0);
+    let bound = |p: f64| chebyshev(p * far + (1.0 - p) * near, p * far * far + (1.0 - p) * near * near, receiver, 1e-6);
+    let values = stage.look(&mut gpu, &vsm(Lamp::Spot, "gaussian", 5, PLAIN));
+    let pixels: Vec<(f64, f64)> = stage.on_ground(&values).map(|(p, v)| (truth(p), v)).collect();
+    let off: Vec<f64> = pixels.iter().map(|(p, v)| (v - bound(*p)).abs()).collect();
+    table.wide("edge, variance_shadow: largest distance from p_max", "T13: Chebyshev's bound", most(&off), Bound::Most(CLOSED_FORM));
+    let lit = pixels.iter().filter(|(_, v)| *v > 1.0 - 1e-6).map(|(p, _)| *p).fold(1.0, f64::min);
+    let law = (receiver - near) / (far - near);
+    // 20 pixels a texel, over which the edge rises by at most 0.4 a texel.
+    table.row("edge, variance_shadow: least p that is fully lit", "T13: (t - A) / L", lit, Bound::Near(law, 0.02));
+    table.check(&gpu);
+}
+
+/// Triangles that no one should draw, within the light's view.
+fn broken() -> Vec<(&'static str, Mesh)> {
+    let mesh = |points: [[f32; 3]; 3]| {
+        let positions: Vec<Vec3> = points.into_iter().map(Vec3::from_array).collect();
+        let plane = Shape::Plane { size: [1.0, 1.0], segments: [1, 1] }.mesh().expect("a primitive");
+        let first = |n: usize| n.min(plane.positions.len() - 1);
+        Mesh {
+            normals: (0..3).map(|i| plane.normals[first(i)]).collect(),
+            texcoords: (0..3).map(|i| plane.texcoords[first(i)]).collect(),
+            tangents: (0..3).map(|i| plane.tangents[first(i)]).collect(),
+            colors: (0..3).map(|i| plane.colors[first(i)]).collect(),
+            indices: vec![0, 1, 2, 0, 2, 1],
+            positions,
+        }
+    };
+    let (nan, inf) = (f32::NAN, f32::INFINITY);
+    let point = [0.1, 1.0, 0.1];
+    vec![
+        ("a point", mesh([point, point, point])),
+        ("a line", mesh([[-0.5, 1.0, 0.0], [0.0, 1.0, 0.0], [0.5, 1.0, 0.0]])),
+        ("a line along the light", mesh([[0.0, 0.5, 0.0], [0.0, 1.0, 0.0], [0.0, 1.5, 0.0]])),
+        ("a sliver of 1e-20 m", mesh([[-0.5, 1.0, 0.0], [0.5, 1.0, 0.0], [0.0, 1.0, 1e-20]])),
+        ("one NaN", mesh([[-0.5, 1.0, 0.0], [0.5, 1.0, 0.0], [0.0, nan, 0.5]])),
+        ("all NaN", mesh([[nan; 3]; 3])),
+        ("one infinity", mesh([[-0.5, 1.0, 0.0], [0.5, 1.0, 0.0], [0.0, 1.0, inf]])),
+        ("one minus infinity", mesh([[-0.5, 1.0, 0.0], [0.5, 1.0, 0.0], [0.0, -inf, 0.5]])),
+    ]
+}
+
+/// A cube on the ground from above, in a light from above, and a speck at 2 m, so that the light's range stays the same.
+fn cube() -> Stage {
+    let at = |x: f64, y: f64, z: f64| DMat4::from_translation(DVec3::new(x, y, z));
+    let items = vec![
+        Item::plane([16.0, 16.0], DMat4::IDENTITY),
+        Item::new(&Shape::Box { size: [0.5; 3], bevel: 0.0 }, at(0.6, 0.25, 0.6)),
+        Item::plane([0.01, 0.01], at(0.9, 2.0, -0.9)),
+    ];
+    Stage::new(items, View::down((0.0, 0.0), 1.9, 1.7, (32, 32)))
+}
+
+/// Five thousand triangles between 0.6 and 1.4 m above the ground, each a ten thousandth of a metre wide or less.
+fn slivers() -> Mesh {
+    let mut numbers = Numbers(7);
+    let mut mesh = Mesh::default();
+    for _ in 0..5000 {
+        let mut point = |low: f64, high: f64, y: [f64; 2]| {
+            DVec3::new(numbers.within(low, high), numbers.within(y[0], y[1]), numbers.within(low, high))
+        };
+        let (a, b) = (point(-0.8, 0.8, [0.6, 1.4]), point(-0.8, 0.8, [0.6, 1.4]));
+        let aside = point(-1.0, 1.0, [0.0, 0.0]) * 10_f64.powf(numbers.within(-9.0, -4.0));
+        let along = numbers.within(0.2, 0.8);
+        let first = u32::try_from(mesh.positions.len()).expect("few");
+        for p in [a, b, a.lerp(b, along) + aside] {
+            mesh.positions.push(p.as_vec3());
+            mesh.normals.push(Vec3::Y);
+            mesh.texcoords.push(Vec2::ZERO);
+            mesh.tangents.push(Vec4::X);
+            mesh.colors.push(Vec4::ONE);
+        }
+        mesh.indices.extend([first, first + 1, first + 2, first, first + 2, first + 1]);
+    }
+    mesh
+}
+
+/// Texels of a map over slivers that are nearer than the nearest vertex or farther than the ground, in either moment.
+fn strays(gpu: &mut Gpu, lamp: Lamp, shadow: &str) -> f64 {
+    let unblurred = if shadow == "hard_shadow" { "" } else { ", \"width\": \"1\"" };
+    let (kind, at) = lamp.kind();
+    let shader = visibility(&light(kind, at, shadow, "", &format!("\"size\": \"512\"{unblurred}")));
+    let mut stage = cube();
+    stage.items.truncate(1);
+    stage.items.push(Item::of(slivers(), DMat4::IDENTITY));
+    let map = gpu.map(&stage.job(&shader), "light/lamp", 0).expect("renders");
+    let space = map.spaces[0];
+    let depth = |y: f64| f64::from((space.world_to_light.transform_point3(Vec3::Y * y as f32).z - space.depth.x) * space.depth.z);
+    let (near, far) = (depth(1.4) - 1e-5, depth(0.0) + 1e-5);
+    let drawn = map.pixels.iter().filter(|t| f64::from(t[0]) < depth(0.5)).count();
+    assert!(drawn > 50, "slivers are hit: {drawn}");
+    let within = |x: f64, low: f64, high: f64| (low..=high).contains(&x);
+    let strays = map.pixels.iter().map(|t| t.map(f64::from)).filter(|t| {
+        // The variance of a texel of a slope of 8 counts as depth.
+        let slope = if map.channels > 1 { (8.0 * 4.0 / 512.0_f64).powi(2) } else { 0.0 };
+        !within(t[0], near, far) || map.channels > 1 && !within(t[1], near * near, far * far + slope)
+    });
+    strays.count() as f64
+}
+
+/// What broken casters do to a map and to the picture of it: texels that are no numbers, texels outside of [0, 1], and
+/// the largest change of a pixel.
+fn harm(gpu: &mut Gpu, lamp: Lamp, shadow: &str, mesh: Mesh) -> [f64; 3] {
+    let (kind, at) = lamp.kind();
+    let shader = visibility(&light(kind, at, shadow, "", "\"size\": \"256\""));
+    let mut stage = cube();
+    let before = stage.look(gpu, &shader);
+    stage.items.push(Item::of(mesh, DMat4::IDENTITY));
+    let frame = stage.frame(gpu, &shader);
+    let change = frame.pixels.iter().zip(&before).map(|(p, b)| (f64::from(p[0]) - b).abs());
+    // A pixel that is no number is as bad as can be.
+    let change = change.map(|c| if c.is_nan() { f64::INFINITY } else { c }).fold(0.0, f64::max);
+    let map = gpu.map(&stage.job(&shader), "light/lamp", 0).expect("renders");
+    let texels = || map.pixels.iter().flat_map(|t| &t[..map.channels]);
+    let strange = texels().filter(|x| !x.is_finite()).count();
+    let outside = texels().filter(|x| !(-1e-6..=1.0 + 1e-6).contains(*x)).count();
+    [strange as f64, outside as f64, change]
+}
+
+#[test]
+fn broken_triangles_leave_no_mark() {
+    let Some(mut gpu) = gpu() else { return };
+    let mut table = Table::new(
+        "degenerate",
+        "A cube on the ground, and above it a triangle without an area or with a vertex that is no number: texels of the\nmap that are no numbers, or outside of [0, 1], and the largest change of a pixel, over both lights. Then slivers that\nare thinner than a texel: texels whose moments are not between those of the vertices.",
+        (1.0, "what becomes of a vertex that is no number is up to the device, which may draw the triangle or not"),
+        (0.0, 0.0),
+    );
+    for (what, mesh) in broken() {
+        for shadow in SHADOWS {
+            let [sun, spot] = Lamp::BOTH.map(|lamp| harm(&mut gpu, lamp, shadow, mesh.clone()));
+            let worst: [f64; 3] = std::array::from_fn(|i| sun[i].max(spot[i]));
+            table.row(format!("{what}, {shadow}: not a number"), "none", worst[0], Bound::Most(0.0));
+            table.row(format!("{what}, {shadow}: outside"), "none", worst[1], Bound::Most(0.0));
+            table.wide(format!("{what}, {shadow}: change"), "none", worst[2], Bound::Most(0.0));
+        }
+    }
+    for shadow in SHADOWS {
+        for lamp in Lamp::BOTH {
+            let what = format!("5000 slivers, {lamp:?}, {shadow}: beyond their vertices");
+            table.row(what, "none", strays(&mut gpu, lamp, shadow), Bound::Most(0.0));
+        }
+    }
+    table.check(&gpu);
+}
