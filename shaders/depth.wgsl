@@ -38,10 +38,20 @@ fn vs_main(@location(0) position: vec3f) -> Varying {
 
 @fragment
 fn fs_main(fragment_in: Varying) -> @builtin(frag_depth) f32 {
+//#if metric == radial
+    let distance = fragment_in.in_light.z;
+//#else
+    let distance = fragment_in.distance;
+//#end
+    // The near plane clips. Only triangles thinner than the rasteriser's grid have fragments before it, at depths that
+    // have nothing to do with their vertices: they would count as occluders at the light.
+    if (light_linear_depth(light, distance) < -1e-4) {
+        discard;
+    }
 //#if metric == linear
-    return saturate(light_linear_depth(light, fragment_in.distance));
+    return saturate(light_linear_depth(light, distance));
 //#elif metric == zw
-    return saturate(light_depth_zw(light, vec3f(0.0, 0.0, fragment_in.distance)));
+    return saturate(light_depth_zw(light, vec3f(0.0, 0.0, distance)));
 //#else
     return saturate(light_depth_radial(light, fragment_in.in_light));
 //#end
