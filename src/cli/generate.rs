@@ -45,6 +45,9 @@ pub(super) struct Generate {
     /// Choose a structural option
     #[arg(long, value_name = "NODE.NAME=VALUE")]
     option: Vec<Assignment>,
+    /// Make a node one of another kind, with its links
+    #[arg(long, value_name = "NODE=KIND", value_parser = super::settings::kind)]
+    kind: Vec<Assignment>,
     /// Give a port another value
     #[arg(long, value_name = "NODE.PORT=VALUE")]
     set: Vec<Assignment>,
@@ -113,7 +116,7 @@ impl Generate {
         let (catalog, found) = loader.catalog(&self.nodes)?;
         context.report(&found);
         let options = Options { bake: self.bake, ..Options::default() };
-        let set = overrides(&self.set, &self.option);
+        let set = overrides(&self.kind, &self.set, &self.option);
         let weaver = Weaver { context, loader, catalog: &catalog, options, set: &set, images: false };
         let shaders = match weaver.read(&self.files)? {
             Input::Graphs(graphs) => vec![weaver.weave_graphs(graphs)?],

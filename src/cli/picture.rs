@@ -29,7 +29,7 @@ pub(super) fn once(command: &Render, context: &Context, loader: &Loader, gpu: &m
     if let Aov::Output(output) = &command.aov {
         options.output = output.clone();
     }
-    let set = overrides(&command.set, &command.option);
+    let set = overrides(&command.kind, &command.set, &command.option);
     let weaver = Weaver { context, loader, catalog: &catalog, options, set: &set, images: true };
     let (scene, file, shaders) = shaders(command, &weaver)?;
     let mut meshes = Vec::new();
@@ -150,7 +150,7 @@ fn shaders(command: &Render, weaver: &Weaver<'_>) -> Result<(Scene, PathBuf, Vec
                 None => return Err(Vec::new().into()),
             };
             let mut all = graphs;
-            super::settings::apply(weaver.set, &mut all)?;
+            super::settings::apply(weaver.set, &mut all, weaver.catalog)?;
             // Graphs that are a whole shader bring their own light; others take those of the scene.
             let alone = weaver.try_weave(&all, Vec::new()).0;
             let shader = match alone {
@@ -171,7 +171,7 @@ fn on_stage(mut graphs: Vec<NamedGraph>, weaver: &Weaver<'_>) -> Result<(Scene, 
     let (stage, found) = stage::read();
     weaver.context.report(&found);
     let stage = stage.ok_or_else(|| Failure::from(Vec::new()))?;
-    super::settings::apply(weaver.set, &mut graphs)?;
+    super::settings::apply(weaver.set, &mut graphs, weaver.catalog)?;
     let (alone, found) = weaver.try_weave(&graphs, Vec::new());
     let shaders = match alone {
         Some(shader) if !shader.compiled.plan.lights.is_empty() => {

@@ -16,6 +16,7 @@ use super::settings::Assignment;
   shadetree render matte.ron --scene graphs/scenes/car.ron -o matte_car.png
   shadetree render graphs/scenes/car.ron --aov visibility:key -o shadow.exr --size 512x512
   shadetree render graphs/scenes/car.ron --aov visibility:spot --reference pcf -o truth.png   # needs no adapter
+  shadetree render graphs/scenes/car.ron -o pcf.png --kind shadow=pcf_shadow
   shadetree render graphs/scenes/car.ron -o car.png --set spot.range=20 --adapter cpu --watch")]
 pub(super) struct Render {
     /// Graph files, woven together by type; or one scene file; `-` is stdin
@@ -49,6 +50,9 @@ pub(super) struct Render {
     /// Choose a structural option
     #[arg(long, value_name = "NODE.NAME=VALUE")]
     pub(super) option: Vec<Assignment>,
+    /// Make a node one of another kind, with its links: any shadow can be any other
+    #[arg(long, value_name = "NODE=KIND", value_parser = super::settings::kind)]
+    pub(super) kind: Vec<Assignment>,
     /// Part of an adapter's name, or `cpu` for a software one
     #[arg(long, value_name = "NAME")]
     pub(super) adapter: Option<String>,

@@ -3,6 +3,8 @@
 use super::exit::Failure;
 use crate::compile::NamedGraph;
 use crate::diagnostic::{Diagnostic, Place, did_you_mean};
+use crate::graph::Node;
+use crate::node::Catalog;
 use crate::semantic::Value;
 
 /// `NODE.PORT=VALUE`, read by clap.
@@ -14,8 +16,30 @@ pub(super) struct Assignment {
     pub name: String,
     /// What is right of the `=`.
     pub value: String,
-    /// Whether it chooses an option (`--option`) rather than giving a port a value (`--set`).
-    pub is_option: bool,
+    /// What it changes.
+    pub target: Target,
+}
+
+/// What an assignment changes.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(super) enum Target {
+    /// The value of a port (`--set`).
+    #[default]
+    Port,
+    /// A structural choice (`--option`).
+    Option,
+    /// The kind of the node itself (`--kind`).
+    Kind,
+}
+
+/// `NODE=KIND`, read by clap.
+pub(super) fn kind(text: &str) -> Result<Assignment, String> {
+    match text.split_once('=').map(|(node, kind)| (node.trim(), kind.trim())) {
+        Some((node, kind)) if !node.is_empty() && !kind.is_empty() => {
+            Ok(Assignment { node: node.into(), name: "kind".into(), value: kind.into(), target: Target::Kind })
+        }
+        _ => Err("expected NODE=KIND, as in `shadow=pcf_shadow`".into()),
+    }
 }
 
 impl std::str::FromStr for Assignment {
@@ -25,7 +49,7 @@ impl std::str::FromStr for Assignment {
         let split = text.split_once('=').and_then(|(path, value)| Some((path.trim().rsplit_once('.')?, value.trim())));
         match split {
             Some(((node, name), value)) if !node.is_empty() && !name.is_empty() && !value.is_empty() => {
-                Ok(Self { node: node.into(), name: name.into(), value: value.into(), is_option: false })
+                Ok(Self { node: node.into(), name: name.into(), value: value.into(), target: Target::Port })
             }
             _ => Err("expected NODE.NAME=VALUE, as in `spot.position=(1, 2, 3)`".into()),
         }
@@ -57,22 +81,44 @@ impl Assignment {
 }
 
 /// Everything that the command line overrides.
-pub(super) fn overrides(set: &[Assignment], option: &[Assignment]) -> Vec<Assignment> {
-    let options = option.iter().map(|a| Assignment { is_option: true, ..a.clone() });
-    set.iter().cloned().chain(options).collect()
+pub(super) fn overrides(kinds: &[Assignment], set: &[Assignment], option: &[Assignment]) -> Vec<Assignment> {
+    let options = option.iter().map(|a| Assignment { target: Target::Option, ..a.clone() });
+    kinds.iter().chain(set).cloned().chain(options).collect()
+}
+
+/// Makes a node one of another kind. Its links stay; of its values and choices those stay that the other kind has, too.
+pub(super) fn change_kind(node: &mut Node, kind: &str, catalog: &Catalog) {
+    node.kind = kind.to_owned();
+    // What is wrong with the kind is told when it is woven.
+    let Some(file) = catalog.get(kind) else { return };
+    if let Ok(header) = file.header() {
+        let offers = |name: &str, choice: &str| {
+            header.options.iter().any(|o| o.name == name && o.choices.iter().any(|c| c == choice))
+        };
+        node.options.retain(|name, choice| offers(name, choice));
+    }
+    if let Ok(definition) = file.definition(&node.options) {
+        node.params.retain(|name, _| definition.input(name).is_some_and(|p| !p.hidden));
+    }
 }
 
 /// Puts overrides into the graphs that have such a node. Ports, options and types are checked when compiling.
-pub(super) fn apply(assignments: &[Assignment], graphs: &mut [NamedGraph]) -> Result<(), Failure> {
+pub(super) fn apply(
+    assignments: &[Assignment],
+    graphs: &mut [NamedGraph],
+    catalog: &Catalog,
+) -> Result<(), Failure> {
     for assignment in assignments {
         let wrong = |message| {
             let place = Place::default().node(&assignment.node).port(&assignment.name);
             let help = "write a number, true or false, several numbers as (1, 2, 3), or a path";
             Diagnostic::error("ST0510", message, place).help(help)
         };
-        let flag = if assignment.is_option { "--option" } else { "--set" };
-        let value = assignment.value();
-        let value = if assignment.is_option { Value::Bool(true) } else { value.map_err(|m| vec![wrong(m)])? };
+        let (flag, value) = match assignment.target {
+            Target::Port => ("--set", assignment.value().map_err(|m| vec![wrong(m)])?),
+            Target::Option => ("--option", Value::Bool(true)),
+            Target::Kind => ("--kind", Value::Bool(true)),
+        };
         let (graph, node) = match assignment.node.split_once('/') {
             Some((graph, node)) if graphs.iter().any(|g| g.name == graph) => (Some(graph), node),
             _ => (None, assignment.node.as_str()),
@@ -81,10 +127,20 @@ pub(super) fn apply(assignments: &[Assignment], graphs: &mut [NamedGraph]) -> Re
         for named in graphs.iter_mut().filter(|g| graph.is_none_or(|name| g.name == name)) {
             let Some(target) = named.graph.nodes.get_mut(node) else { continue };
             found = true;
-            if assignment.is_option {
-                target.options.insert(assignment.name.clone(), assignment.value.clone());
-            } else {
-                named.set.insert(format!("{node}.{}", assignment.name), value.clone());
+            match assignment.target {
+                Target::Port => drop(named.set.insert(format!("{node}.{}", assignment.name), value.clone())),
+                Target::Option => drop(target.options.insert(assignment.name.clone(), assignment.value.clone())),
+                Target::Kind => {
+                    change_kind(target, &assignment.value, catalog);
+                    let kept = |path: &String| match path.rsplit_once('.') {
+                        Some((of, port)) if of == node => catalog
+                            .get(&target.kind)
+                            .and_then(|f| f.definition(&target.options).ok())
+                            .is_none_or(|d| d.input(port).is_some()),
+                        _ => true,
+                    };
+                    named.set.retain(|path, _| kept(path));
+                }
             }
         }
         if !found {

@@ -32,7 +32,7 @@ pub(super) fn once(command: &Render, context: &Context, loader: &Loader) -> Outc
     };
     let (catalog, found) = loader.catalog(&command.nodes)?;
     context.report(&found);
-    let set = overrides(&command.set, &command.option);
+    let set = overrides(&command.kind, &command.set, &command.option);
     let options = Options { output: output.clone(), ..Options::default() };
     let weaver = Weaver { context, loader, catalog: &catalog, options, set: &set, images: false };
     let (scene, file, graphs) = read(command, &weaver)?;
@@ -129,7 +129,7 @@ fn read(command: &Render, weaver: &Weaver<'_>) -> Result<(Scene, PathBuf, Vec<Na
             }
             let mut lights = weaver.lights(&scene, &file)?;
             for assignment in weaver.set {
-                match settings::apply(std::slice::from_ref(assignment), &mut lights) {
+                match settings::apply(std::slice::from_ref(assignment), &mut lights, weaver.catalog) {
                     // It may be a surface's.
                     Err(failure) if failure.diagnostics.iter().all(|d| d.code == "ST0511") => {}
                     other => other?,
@@ -140,7 +140,7 @@ fn read(command: &Render, weaver: &Weaver<'_>) -> Result<(Scene, PathBuf, Vec<Na
         }
         Input::Graphs(graphs) => graphs,
     };
-    settings::apply(weaver.set, &mut graphs)?;
+    settings::apply(weaver.set, &mut graphs, weaver.catalog)?;
     // Graphs that have a light bring their own; others take those of the scene.
     let alone = weave(&graphs, weaver.catalog, &Output::Depth).0;
     let lit = alone.is_some_and(|w| w.nodes.iter().any(|n| is_light(&n.definition)));

@@ -125,7 +125,7 @@ impl Weaver<'_> {
 
     /// Graphs given on the command line, with `--set` applied, as one shader.
     pub(super) fn weave_graphs(&self, mut graphs: Vec<NamedGraph>) -> Result<Shader, Failure> {
-        settings::apply(self.set, &mut graphs)?;
+        settings::apply(self.set, &mut graphs, self.catalog)?;
         self.weave(&graphs, Vec::new())
     }
 
@@ -175,7 +175,7 @@ impl Weaver<'_> {
             let here: Vec<Assignment> = self
                 .set
                 .iter()
-                .filter(|a| settings::apply(std::slice::from_ref(a), &mut graphs).is_ok())
+                .filter(|a| settings::apply(std::slice::from_ref(a), &mut graphs, self.catalog).is_ok())
                 .cloned()
                 .collect();
             unused.retain(|a| !here.contains(a));
@@ -194,7 +194,7 @@ impl Weaver<'_> {
         if failed {
             return Err(Vec::new().into());
         }
-        settings::apply(&unused, &mut lights.clone())?;
+        settings::apply(&unused, &mut lights.clone(), self.catalog)?;
         Ok(shaders)
     }
 
