@@ -221,6 +221,12 @@ const OWN: &[(&str, &str, &str)] = &[
     ("ST0518", "A file is not in canonical form.", "`shadetree fmt FILE` rewrites it. Its meaning does not change."),
     ("ST0519", "Changes of files cannot be watched.", "The system's limit of watched folders may be reached."),
     (
+        "ST0521",
+        "There is nothing to compare on this light.",
+        "`compare` puts every kind of shadow in the place of the one that the light's graph has. It needs a scene, a light
+of it by name, and exactly one shadow node in that light's graph.",
+    ),
+    (
         "ST0520",
         "There is no truth to be had of this light.",
         "`--reference` must know where the light is: from the inputs that its node's `space:` line names, as values, not\nlinks. `--reference pcf` also needs a shadow on it, whose options `size`, `width`, `weights` and `taps` say what the\nfilter is; `--kernel WIDTH` says the width where `width` is no number.",

@@ -4,6 +4,9 @@
 
 mod assets;
 mod check;
+#[cfg(feature = "render")]
+mod comparison;
+mod compare;
 mod completions;
 mod context;
 mod doctor;
@@ -75,6 +78,7 @@ enum Command {
     Generate(generate::Generate),
     Check(check::Check),
     Render(render::Render),
+    Compare(compare::Compare),
     Nodes(nodes::Nodes),
     Fmt(fmt::Fmt),
     New(new::New),
@@ -90,6 +94,7 @@ impl Command {
             Self::Generate(c) => c.run(context),
             Self::Check(c) => c.run(context),
             Self::Render(c) => c.run(context),
+            Self::Compare(c) => c.run(context),
             Self::Nodes(c) => c.run(context),
             Self::Fmt(c) => c.run(context),
             Self::New(c) => c.run(context),

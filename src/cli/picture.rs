@@ -18,11 +18,43 @@ use super::weave::{Input, Shader, Weaver};
 use crate::compile::{NamedGraph, Options, Output};
 use crate::diagnostic::{Diagnostic, Place};
 use crate::render::image_file::{Display, ToneCurve, encode_exr, encode_png};
-use crate::render::{ColorFormat, Draw, Gpu, Job, Picture, RenderError, Surroundings, SurroundingsLevel, Texels};
+use crate::render::{
+    ColorFormat, Draw, Gpu, Job, PassTiming, Picture, RenderError, Surroundings, SurroundingsLevel, Texels,
+};
 use crate::scene::{Environment, Scene, environment};
 use crate::weave::light_called;
 
 pub(super) fn once(command: &Render, context: &Context, loader: &Loader, gpu: &mut Option<Gpu>) -> Outcome {
+    let drawn = pixels(command, context, loader, gpu)?;
+    for message in &drawn.messages {
+        context.say(message);
+    }
+    let tone = match command.aov {
+        Aov::Output(Output::Radiance) => ToneCurve::Filmic,
+        _ => ToneCurve::None,
+    };
+    save(command, context, drawn.size, &drawn.pixels, tone, ("Adapter", &drawn.adapter))?;
+    Ok(Exit::Done)
+}
+
+/// A picture before it is written.
+pub(super) struct Drawn {
+    pub(super) size: (u32, u32),
+    /// Linear colour and coverage, rows from the top.
+    pub(super) pixels: Vec<[f32; 4]>,
+    pub(super) adapter: String,
+    pub(super) messages: Vec<String>,
+    /// What each pass took; none for maps.
+    pub(super) timings: Vec<PassTiming>,
+}
+
+/// Renders what a command asks for.
+pub(super) fn pixels(
+    command: &Render,
+    context: &Context,
+    loader: &Loader,
+    gpu: &mut Option<Gpu>,
+) -> Result<Drawn, Failure> {
     let (catalog, found) = loader.catalog(&command.nodes)?;
     context.report(&found);
     let mut options = Options::default();
@@ -64,16 +96,7 @@ pub(super) fn once(command: &Render, context: &Context, loader: &Loader, gpu: &m
     let result = draw(command, context, &job, gpu);
     progress.finish_and_clear();
     // A lost device is opened anew on the next run of --watch.
-    let (size, pixels, adapter, messages) = result.inspect_err(|_| *gpu = None).map_err(failure)?;
-    for message in messages {
-        context.say(&message);
-    }
-    let tone = match command.aov {
-        Aov::Output(Output::Radiance) => ToneCurve::Filmic,
-        _ => ToneCurve::None,
-    };
-    save(command, context, size, &pixels, tone, ("Adapter", &adapter))?;
-    Ok(Exit::Done)
+    result.inspect_err(|_| *gpu = None).map_err(failure)
 }
 
 /// Writes a picture in the form that its name asks for, with a note on how it was made.
@@ -102,8 +125,6 @@ fn is_exr(command: &Render) -> bool {
     command.output.extension().is_some_and(|e| e.eq_ignore_ascii_case("exr"))
 }
 
-type Drawn = ((u32, u32), Vec<[f32; 4]>, String, Vec<String>);
-
 fn draw(command: &Render, context: &Context, job: &Job<'_>, gpu: &mut Option<Gpu>) -> Result<Drawn, RenderError> {
     let gpu = match gpu {
         Some(gpu) => gpu,
@@ -111,11 +132,18 @@ fn draw(command: &Render, context: &Context, job: &Job<'_>, gpu: &mut Option<Gpu
     };
     if let Aov::Map(light) = &command.aov {
         let map = gpu.map(job, &full_name(job, light), 0)?;
-        return Ok((map.size, map.pixels, gpu.adapter().name.clone(), map.messages));
+        let adapter = gpu.adapter().name.clone();
+        return Ok(Drawn { size: map.size, pixels: map.pixels, adapter, messages: map.messages, timings: Vec::new() });
     }
     let frame = gpu.render(job)?;
     frame.timing_table().iter().for_each(|line| context.detail(line));
-    Ok((frame.size, frame.pixels, frame.adapter.name, frame.messages))
+    Ok(Drawn {
+        size: frame.size,
+        pixels: frame.pixels,
+        adapter: frame.adapter.name,
+        messages: frame.messages,
+        timings: frame.timings,
+    })
 }
 
 /// The name that plans have for a light that a person calls by all of it, by its graph, or by its node.

@@ -96,7 +96,16 @@ pub(super) enum Aov {
     Map(String),
 }
 
-fn size(text: &str) -> Result<(u32, u32), String> {
+/// What a build without the renderer says.
+#[cfg(not(feature = "render"))]
+pub(super) fn cannot_render() -> Failure {
+    use crate::diagnostic::{Diagnostic, Place};
+    let diagnostic = Diagnostic::error("ST0515", "this build cannot render", Place::default())
+        .help("build it with `cargo build --release --features render`");
+    Failure::new(super::Exit::NoAdapter, diagnostic)
+}
+
+pub(super) fn size(text: &str) -> Result<(u32, u32), String> {
     let wrong = || "expected COLUMNSxROWS, each 1 to 16384, as in 960x540".to_owned();
     let (width, height) = text.split_once('x').ok_or_else(wrong)?;
     let side = |t: &str| t.parse::<u32>().ok().filter(|n| (1..=16_384).contains(n)).ok_or_else(wrong);
@@ -138,10 +147,7 @@ impl Render {
 
     #[cfg(not(feature = "render"))]
     fn start(&self, _: &Context) -> Outcome {
-        use crate::diagnostic::{Diagnostic, Place};
-        let diagnostic = Diagnostic::error("ST0515", "this build cannot render", Place::default())
-            .help("build it with `cargo build --release --features render`");
-        Err(Failure::new(super::Exit::NoAdapter, diagnostic))
+        Err(cannot_render())
     }
 
     #[cfg(feature = "render")]

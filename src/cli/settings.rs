@@ -103,11 +103,7 @@ pub(super) fn change_kind(node: &mut Node, kind: &str, catalog: &Catalog) {
 }
 
 /// Puts overrides into the graphs that have such a node. Ports, options and types are checked when compiling.
-pub(super) fn apply(
-    assignments: &[Assignment],
-    graphs: &mut [NamedGraph],
-    catalog: &Catalog,
-) -> Result<(), Failure> {
+pub(super) fn apply(assignments: &[Assignment], graphs: &mut [NamedGraph], catalog: &Catalog) -> Result<(), Failure> {
     for assignment in assignments {
         let wrong = |message| {
             let place = Place::default().node(&assignment.node).port(&assignment.name);

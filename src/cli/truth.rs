@@ -26,6 +26,14 @@ use crate::weave::{is_light, weave};
 const MOST_TRIED: usize = 4096;
 
 pub(super) fn once(command: &Render, context: &Context, loader: &Loader) -> Outcome {
+    let (picture, note) = pixels(command, context, loader)?;
+    context.say(&note);
+    save(command, context, command.size, &picture, ToneCurve::None, ("Reference", &note))?;
+    Ok(Exit::Done)
+}
+
+/// Visibility (three times) and coverage of every pixel, and how exact it is, in words.
+pub(super) fn pixels(command: &Render, context: &Context, loader: &Loader) -> Result<(Vec<[f32; 4]>, String), Failure> {
     let Aov::Output(output @ Output::Visibility(_)) = &command.aov else {
         let message = "--reference knows visibility alone";
         return Err(Failure::usage(message, "add --aov visibility:LIGHT with the name of a light"));
@@ -83,15 +91,13 @@ pub(super) fn once(command: &Render, context: &Context, loader: &Loader) -> Outc
         None => error_of_rays(method, &found),
     };
     progress.finish_and_clear();
-    context.say(&note);
     let mut picture = vec![[0.0; 4]; pixels];
     for ((pixel, _), Estimate { mean, .. }) in seen.iter().zip(&found) {
         #[allow(clippy::cast_possible_truncation, reason = "pictures hold f32")]
         let value = *mean as f32;
         picture[*pixel] = [value, value, value, 1.0];
     }
-    save(command, context, command.size, &picture, ToneCurve::None, ("Reference", &note))?;
-    Ok(Exit::Done)
+    Ok((picture, note))
 }
 
 /// What the standard errors of rays say.

@@ -15,8 +15,8 @@ use std::hash::BuildHasher;
 use std::rc::Rc;
 use std::sync::Arc;
 
-use foldhash::fast::RandomState;
 use crate::hash::{HashMap, HashSet};
+use foldhash::fast::RandomState;
 
 use crate::module::{Address, SamplerSettings};
 use crate::node::{Definition, Function};

@@ -44,7 +44,12 @@ fn empty_maps_hold_the_far_plane() {
     let values = stage.look(&mut gpu, &vsm(Lamp::Spot, "gaussian", 5, PLAIN));
     let pixels: Vec<(f64, f64)> = stage.on_ground(&values).map(|(p, v)| (truth(p), v)).collect();
     let off: Vec<f64> = pixels.iter().map(|(p, v)| (v - bound(*p)).abs()).collect();
-    table.wide("edge, variance_shadow: largest distance from p_max", "T13: Chebyshev's bound", most(&off), Bound::Most(CLOSED_FORM));
+    table.wide(
+        "edge, variance_shadow: largest distance from p_max",
+        "T13: Chebyshev's bound",
+        most(&off),
+        Bound::Most(CLOSED_FORM),
+    );
     let lit = pixels.iter().filter(|(_, v)| *v > 1.0 - 1e-6).map(|(p, _)| *p).fold(1.0, f64::min);
     let law = (receiver - near) / (far - near);
     // 20 pixels a texel, over which the edge rises by at most 0.4 a texel.
@@ -126,7 +131,8 @@ fn strays(gpu: &mut Gpu, lamp: Lamp, shadow: &str) -> [f64; 2] {
     stage.items[1] = Item::of(slivers(), DMat4::IDENTITY);
     let map = gpu.map(&stage.job(&shader), "light/lamp", 0).expect("renders");
     let space = map.spaces[0];
-    let depth = |y: f32| f64::from((space.world_to_light.transform_point3(Vec3::Y * y).z - space.depth.x) * space.depth.z);
+    let depth =
+        |y: f32| f64::from((space.world_to_light.transform_point3(Vec3::Y * y).z - space.depth.x) * space.depth.z);
     let speck = depth(2.0);
     let (near, far) = (depth(1.4) - 1e-5, depth(0.0) + 1e-5);
     let texels: Vec<f64> = map.pixels.iter().map(|t| f64::from(t[0])).collect();
@@ -163,7 +169,10 @@ fn broken_triangles_leave_no_mark() {
     let mut table = Table::new(
         "degenerate",
         "A cube on the ground, and above it a triangle without an area or with a vertex that is no number: texels of the\nmap that are no numbers, or outside of [0, 1], and the largest change of a pixel, over both lights. Then slivers that\nare thinner than a texel: texels as near as the near plane, and others whose depth is not between those of vertices.",
-        (1.0, "what becomes of a vertex that is no number, or of a triangle thinner than the grid, is up to the device"),
+        (
+            1.0,
+            "what becomes of a vertex that is no number, or of a triangle thinner than the grid, is up to the device",
+        ),
         (0.0, 0.0),
     );
     for (what, mesh) in broken() {

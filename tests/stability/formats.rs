@@ -94,11 +94,21 @@ fn formats_cancel_by_their_law() {
         let name = format.name;
         let (worst, ratio, negative) = rounding(&mut gpu, &format);
         table.row(format!("{name}: largest |M2 - M1^2|"), "T7 at z = 1", worst, Bound::Most((format.variance)(1.0)));
-        table.row(format!("{name}: largest ratio to the bound"), "T7: 3 u z^2, or (1 + 2 z) / 2^17", ratio, Bound::Most(1.0));
+        table.row(
+            format!("{name}: largest ratio to the bound"),
+            "T7: 3 u z^2, or (1 + 2 z) / 2^17",
+            ratio,
+            Bound::Most(1.0),
+        );
         table.row(format!("{name}: share with M2 < M1^2"), "T7: about half", negative, Bound::Near(0.5, 0.35));
         let noise = (format.variance)(Lamp::Spot.depth(0.4));
         let law = noise / (noise + 0.01);
-        table.row(format!("{name}: umbra, gap 0.1"), "T7: n / (n + 0.01)", leak(&mut gpu, name, 0.1), Bound::Most(law + 1e-6));
+        table.row(
+            format!("{name}: umbra, gap 0.1"),
+            "T7: n / (n + 0.01)",
+            leak(&mut gpu, name, 0.1),
+            Bound::Most(law + 1e-6),
+        );
         let minimum = 254.0 * format.mean * format.mean;
         // The node keeps 1e-12 against 0 / 0, which is all that single precision needs.
         let (law, bound) = if minimum > 1e-12 {
@@ -108,7 +118,12 @@ fn formats_cancel_by_their_law() {
         };
         table.row(format!("{name}: darkest lit, e = 0"), law, darkest_lit(&mut gpu, name, 0.0), bound);
         let cured = darkest_lit(&mut gpu, name, minimum);
-        table.row(format!("{name}: darkest lit, e = 254 d^2"), "T10: 254 / 255", cured, Bound::Least(254.0 / 255.0 - 1e-4));
+        table.row(
+            format!("{name}: darkest lit, e = 254 d^2"),
+            "T10: 254 / 255",
+            cured,
+            Bound::Least(254.0 / 255.0 - 1e-4),
+        );
     }
     table.check(&gpu);
 }

@@ -22,10 +22,8 @@ fn a_light_inside_a_caster_lights_what_its_near_plane_lets_out() {
         (1e-3, 0.0),
     );
     let ball = Item::new(&Shape::Sphere { radius: 0.5, segments: 64 }, DMat4::from_translation(DVec3::Y * 2.0));
-    let stage = Stage::new(
-        vec![Item::plane([8.0, 8.0], DMat4::IDENTITY), ball],
-        View::down((0.0, 0.0), 1.2, 1.6, (32, 32)),
-    );
+    let stage =
+        Stage::new(vec![Item::plane([8.0, 8.0], DMat4::IDENTITY), ball], View::down((0.0, 0.0), 1.2, 1.6, (32, 32)));
     for (kind, at) in [BULB, SPOT] {
         for shadow in SHADOWS {
             let mut look = |near: f64| {
@@ -80,7 +78,8 @@ fn what_lies_behind_a_light_has_no_shadow_and_no_light() {
 pub(super) fn grazing(gpu: &mut Gpu, shadow: &str, degrees: f64) -> (f64, f64) {
     const RADIUS: f64 = 32.0;
     let (sine, cosine) = degrees.to_radians().sin_cos();
-    let wall = DMat4::from_translation(DVec3::new(-16.0, 0.25, 0.0)) * DMat4::from_rotation_z(std::f64::consts::FRAC_PI_2);
+    let wall =
+        DMat4::from_translation(DVec3::new(-16.0, 0.25, 0.0)) * DMat4::from_rotation_z(std::f64::consts::FRAC_PI_2);
     let items = vec![Item::plane([256.0, 16.0], DMat4::IDENTITY), Item::plane([0.5, 8.0], wall)];
     let lamp = format!("\"direction\": ({cosine}, {}, 0), \"radius\": {RADIUS}", -sine);
     let shader = visibility(&light("directional_light", &lamp, shadow, "", "\"size\": \"2048\""));

@@ -88,7 +88,9 @@ pub(super) fn sizes(gpu: &mut Gpu, size: u32) -> [f64; 3] {
     let wrong = |(x, v): &(f64, f64)| if (*v > 0.5) == (*x > 4.3) { 0.0 } else { (x - 4.3).abs() };
     let kernel = kernel(Weights::Gaussian, 5);
     // The edge at 4.3 covers the texels up to 4.
-    let off = |all: Vec<(f64, f64)>| most(&all.iter().map(|(x, v)| (v - edge_visibility(&kernel, x - 4.0)).abs()).collect::<Vec<_>>());
+    let off = |all: Vec<(f64, f64)>| {
+        most(&all.iter().map(|(x, v)| (v - edge_visibility(&kernel, x - 4.0)).abs()).collect::<Vec<_>>())
+    };
     let compared = off(errors("pcf_shadow", "", ", \"width\": \"5\", \"taps\": \"bilinear\""));
     let variance = off(errors(
         "variance_shadow",

@@ -166,7 +166,10 @@ pub(super) fn figure(x: f64) -> String {
 
 #[test]
 fn figures_are_short_and_bounds_refuse_what_is_no_number() {
-    assert_eq!([0.0, 0.25, 0.03921, 1.0, 123.456, 8.5e-8, -0.5].map(figure).join(" "), "0 0.25 0.03921 1 123.5 8.50e-8 -0.5");
+    assert_eq!(
+        [0.0, 0.25, 0.03921, 1.0, 123.456, 8.5e-8, -0.5].map(figure).join(" "),
+        "0 0.25 0.03921 1 123.5 8.50e-8 -0.5"
+    );
     for bound in [Bound::Most(1.0), Bound::Least(-1.0), Bound::Near(0.0, 1.0)] {
         assert!(bound.excess(f64::NAN) > 0.0 && bound.excess(0.5) <= 0.0 && bound.excess(f64::INFINITY) > 0.0);
     }
