@@ -4,6 +4,8 @@ mod commands;
 pub(crate) mod generate;
 mod json;
 #[cfg(feature = "render")]
+mod reference;
+#[cfg(feature = "render")]
 mod render;
 #[cfg(unix)]
 mod watch;

@@ -7,4 +7,5 @@ mod percentage;
 mod planar;
 mod splits;
 mod surfaces;
+mod truth;
 mod variance;

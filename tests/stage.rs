@@ -7,6 +7,7 @@ use std::sync::{Mutex, MutexGuard, OnceLock, PoisonError};
 use glam::{DMat4, DVec3};
 use shadetree::compile::{Compiled, Options, Output};
 use shadetree::diagnostic::SourceText;
+use shadetree::reference::{Body, World};
 use shadetree::render::{AdapterOptions, ColorFormat, Draw, Frame, Gpu, Job, Picture, RenderError, Surroundings};
 use shadetree::scene::{Camera, Mesh, Shape};
 use shadetree::semantic::Value;
@@ -93,7 +94,7 @@ impl View {
         Self { position: target + DVec3::Y * above, target, up: DVec3::NEG_Z, half_height, size }
     }
 
-    fn camera(&self) -> Camera {
+    pub(crate) fn camera(&self) -> Camera {
         Camera {
             position: self.position.as_vec3(),
             target: self.target.as_vec3(),
@@ -166,6 +167,17 @@ impl Stage {
             images: &no_images,
             output: ColorFormat::Float,
         }
+    }
+
+    /// The same things in float64.
+    pub(crate) fn world(&self) -> World {
+        let bodies = self.items.iter().map(|item| Body {
+            mesh: &item.mesh,
+            object_to_world: item.place.as_mat4(),
+            casts: item.casts,
+            receives: item.receives,
+        });
+        World::new(&bodies.collect::<Vec<_>>())
     }
 
     /// Every pixel with the point of the ground (y = 0) that it sees and its value, from the left, row by row.

@@ -6,7 +6,7 @@ use std::sync::atomic::AtomicBool;
 use super::assets::each_mesh;
 use super::context::Context;
 use super::exit::{Exit, Failure, Outcome};
-use super::load::{Document, Loader};
+use super::load::{Document, Loader, relative};
 use super::picture::{late, save};
 use super::render::{Aov, Reference, Render};
 use super::settings::{self, overrides};
@@ -19,7 +19,7 @@ use crate::graph;
 use crate::reference::picture::{Method, Watch, points, visibility};
 use crate::reference::{Body, Estimate, Filter, Point, World};
 use crate::render::image_file::ToneCurve;
-use crate::scene::Scene;
+use crate::scene::{FileReference, Scene};
 use crate::weave::{is_light, weave};
 
 /// Most pixels that the filter is tried on with half the fineness.
@@ -134,12 +134,19 @@ fn read(command: &Render, weaver: &Weaver<'_>) -> Result<(Scene, PathBuf, Vec<Na
                 return Err(Failure::usage("--scene is for graphs, but a scene was given", "leave --scene out"));
             }
             let mut lights = weaver.lights(&scene, &file)?;
-            for assignment in weaver.set {
-                match settings::apply(std::slice::from_ref(assignment), &mut lights, weaver.catalog) {
-                    // It may be a surface's.
-                    Err(failure) if failure.diagnostics.iter().all(|d| d.code == "ST0511") => {}
-                    other => other?,
-                }
+            let (own, others) = weaver.set.iter().cloned().partition::<Vec<_>, _>(|assignment| {
+                let found = settings::apply(std::slice::from_ref(assignment), &mut lights, weaver.catalog);
+                found.err().is_none_or(|failure| failure.diagnostics.iter().any(|d| d.code != "ST0511"))
+            });
+            settings::apply(&own, &mut lights, weaver.catalog)?;
+            if !others.is_empty() {
+                // Surfaces have no part in it, but a name that nothing has is a mistake.
+                let path = |surface: &FileReference| relative(&surface.path, &file.display().to_string());
+                let surfaces = scene.objects.iter().map(|o| (path(&o.surface), o.surface.span.as_ref()));
+                let read = surfaces.map(|(path, span)| weaver.loader.named_graph(&path, "surface", span));
+                let mut surfaces: Vec<NamedGraph> = read.flatten().collect();
+                weaver.context.report(&weaver.loader.take_found());
+                settings::apply(&others, &mut surfaces, weaver.catalog)?;
             }
             lights.push(plain_surface());
             return Ok((*scene, file, lights));

@@ -8,8 +8,11 @@ use crate::module::stored;
 use crate::reference::{Filter, Light, Taps, Weights, World, kernel};
 use crate::weave::{Node, Root, Wire, Woven};
 
-/// Finest map that is looked at, in fine texels along a texel, where the command line does not say.
+/// Fine texels along a texel where the command line does not say.
 const FACTOR: u32 = 8;
+
+/// Widest filter that a node's option can ask for: time grows with its square.
+const MOST_WIDE: u32 = 256;
 
 /// The light whose visibility is wanted, from the values of the inputs that its `space:` line names.
 pub(super) fn light(woven: &Woven, world: &World) -> Result<Light, Failure> {
@@ -42,6 +45,13 @@ pub(super) fn filter(woven: &Woven, command: &Render, context: &Context) -> Resu
         let message = format!("the light `{}` has no shadow whose filter could be judged", light.id);
         return Err(no_truth(message, "link a shadow behind it, or use --reference rays", light.place.clone()));
     };
+    let space = light.definition.header.space.as_ref();
+    // Faces of a cube are known; parts depend on the eye.
+    if space.is_some_and(|s| s.projection != "cube" && s.views(&light.definition) > 1) {
+        let message =
+            format!("the maps of the light `{}` are cut into parts, which is not filtered exhaustively", light.id);
+        return Err(no_truth(message, "give the light one part, or use --reference rays", light.place.clone()));
+    }
     if shadows.len() > 1 {
         context.say(&format!("`{}` has {} shadows; the filter is that of `{}`", light.id, shadows.len(), shadow.id));
     }
@@ -57,7 +67,7 @@ pub(super) fn filter(woven: &Woven, command: &Render, context: &Context) -> Resu
     };
     let width = match command.kernel {
         Some(width) => width,
-        None => number("width", 1)?,
+        None => number("width", 1)?.clamp(1, MOST_WIDE),
     };
     let weights = option("weights").and_then(|name| Weights::ALL.iter().find(|(n, _)| *n == name));
     let taps = match option("taps") {
@@ -75,7 +85,7 @@ pub(super) fn filter(woven: &Woven, command: &Render, context: &Context) -> Resu
     Ok(Filter {
         kernel: kernel(weights.map_or(Weights::Box, |w| w.1), width as usize),
         taps,
-        size: number("size", 1024)?,
+        size: number("size", 1024)?.max(1),
         factor: command.reference_samples.unwrap_or(FACTOR),
     })
 }

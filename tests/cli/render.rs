@@ -9,7 +9,8 @@ fn small(line: &str, out: &Path) -> Ran {
     run(&format!("render {line} -o {} --size 24x16 --samples 1", out.display()))
 }
 
-fn without_adapter(line: &str) -> Ran {
+/// Runs the program where no adapter can be found.
+pub(super) fn without_adapter(line: &str) -> Ran {
     let mut command = program();
     command.args(line.split_whitespace()).env("WGPU_BACKEND", "vulkan");
     command.env("VK_DRIVER_FILES", "/nowhere").env("VK_ICD_FILENAMES", "/nowhere");
