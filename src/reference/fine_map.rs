@@ -64,6 +64,9 @@ impl<'a> FineMap<'a> {
     /// plane of the point's triangle is. The map goes on beyond its border; what lies beyond it itself, or in front of the
     /// near plane, counts as lit.
     ///
+    /// A plane has no outline, though the surface has one: where light grazes a surface, its plane soon runs behind what
+    /// lies beyond the outline, and that part of the filter counts as dark. [`super::rays`] know better there.
+    ///
     /// The part of the point's own surface around it does not count as nearer: triangles that the light sees in the
     /// footprint and that hang together with the point's by their corners, all turned towards the light. Such a patch
     /// lies side by side on the map, so it cannot stand in its own light; but where it bends up it rises above the plane,
