@@ -38,7 +38,7 @@ pub(super) struct Render {
     /// the filter of the light's shadow. One sample a pixel; adapters and surfaces have no part in it
     #[arg(long, value_enum, value_name = "HOW")]
     pub(super) reference: Option<Reference>,
-    /// Rays a pixel (default 256), or fine texels along a texel of the map (2 to 64, default 8)
+    /// Rays a pixel (default 256, rounded up to 16s), or fine texels along a texel of the map (2 to 64, default 8)
     #[arg(long, value_name = "N", requires = "reference", value_parser = clap::value_parser!(u32).range(1..=1_048_576))]
     pub(super) reference_samples: Option<u32>,
     /// Texels across the filter of `--reference pcf`, rather than what the shadow says

@@ -17,7 +17,7 @@ use crate::compile::{NamedGraph, Options, Output};
 use crate::diagnostic::{Diagnostic, Place, SourceText};
 use crate::graph;
 use crate::reference::picture::{Method, Watch, points, visibility};
-use crate::reference::{Body, Estimate, Filter, Point, World};
+use crate::reference::{Body, Estimate, Filter, Point, World, rays};
 use crate::render::image_file::ToneCurve;
 use crate::scene::{FileReference, Scene};
 use crate::weave::{is_light, weave};
@@ -62,7 +62,8 @@ pub(super) fn pixels(command: &Render, context: &Context, loader: &Loader) -> Re
         Some(Reference::Pcf) => Some(filter(&woven, command, context)?),
         _ => None,
     };
-    let method = filter.as_ref().map_or(Method::Rays(command.reference_samples.unwrap_or(256)), Method::Filter);
+    let samples = command.reference_samples.unwrap_or(256).next_multiple_of(rays::GROUPS);
+    let method = filter.as_ref().map_or(Method::Rays(samples), Method::Filter);
 
     let pixels = command.size.0 as usize * command.size.1 as usize;
     let progress = late(context, "computing the truth", Some(2 * pixels as u64));
@@ -88,7 +89,7 @@ pub(super) fn pixels(command: &Render, context: &Context, loader: &Loader) -> Re
             let fine = found.iter().step_by(step);
             convergence(filter, &fine.zip(&coarse).map(|(a, b)| a.mean - b.mean).collect::<Vec<_>>())
         }
-        None => error_of_rays(method, &found),
+        None => error_of_rays(if light.source.is_sharp() { 1 } else { samples }, &found),
     };
     progress.finish_and_clear();
     let mut picture = vec![[0.0; 4]; pixels];
@@ -100,15 +101,17 @@ pub(super) fn pixels(command: &Render, context: &Context, loader: &Loader) -> Re
     Ok((picture, note))
 }
 
-/// What the standard errors of rays say.
-fn error_of_rays(method: Method<'_>, found: &[Estimate]) -> String {
-    let Method::Rays(samples) = method else { return String::new() };
+/// What the standard errors of so many rays a pixel say.
+fn error_of_rays(samples: u32, found: &[Estimate]) -> String {
     let mean = found.iter().map(|e| e.error).sum::<f64>() / found.len().max(1) as f64;
     let most = found.iter().map(|e| e.error).fold(0.0, f64::max);
-    format!(
-        "{samples} rays a pixel: standard error {mean:.6} on average, {most:.6} at most, over {} pixels",
-        found.len()
-    )
+    let pixels = found.len();
+    let rays = if samples == 1 {
+        "one ray a pixel, as the light is a point".into()
+    } else {
+        format!("{samples} rays a pixel")
+    };
+    format!("{rays}: standard error {mean:.6} on average, {most:.6} at most, over {pixels} pixels")
 }
 
 /// What the difference to half the fineness says.

@@ -6,7 +6,7 @@ use super::view::View;
 use super::world::{Point, World};
 
 /// Groups of samples whose means are compared to tell how far off their common mean may be.
-const GROUPS: u32 = 16;
+pub const GROUPS: u32 = 16;
 
 /// A value that is known up to chance.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -30,7 +30,7 @@ impl Estimate {
 ///
 /// The surface of the point itself does not stand in its light, whichever side the light is on: which side shines back is
 /// for the surface to say. Rays start [`World::epsilon`] off it, along its normal, on the side of the sample. `samples`
-/// are rounded up to a multiple of 16, and `seed` chooses them; a sharp source takes one.
+/// are rounded up to a multiple of [`GROUPS`], and `seed` chooses them; a sharp source takes one.
 pub fn visibility(
     world: &World,
     source: &Source,
