@@ -7,7 +7,7 @@ use super::Reached;
 use crate::program::{Id, Op, Program};
 
 /// The most lines in one function.
-const LONGEST: usize = 400;
+const LONGEST: usize = 128;
 
 /// Which function each line stands in, and which lines others read.
 pub(crate) struct Division {
@@ -33,9 +33,10 @@ pub(crate) fn divide(program: &Program, reached: &Reached, root: Id) -> Option<D
         return None;
     }
     let parts = lines.len().div_ceil(LONGEST);
+    let each = lines.len().div_ceil(parts);
     let mut part = vec![parts; program.expressions.len()];
     for (index, id) in lines.iter().enumerate() {
-        part[id.0 as usize] = index / LONGEST;
+        part[id.0 as usize] = index / each;
     }
     let mut read_later = vec![false; program.expressions.len()];
     if reached.has_line(program, root) {
