@@ -17,7 +17,7 @@ const MOST_WIDE: u32 = 256;
 /// The light whose visibility is wanted, from the values of the inputs that its `space:` line names.
 pub(super) fn light(woven: &Woven, world: &World) -> Result<Light, Failure> {
     let (node, _) = wanted(woven)?;
-    let fail = |message: String, help: &str| no_truth(message, help, node.place.clone());
+    let fail = |message: String, help: &str| no_truth(message, help, node.place());
     let Some(space) = &node.definition.header.space else {
         let message = format!("it is not known where the light `{}` shines from", node.id);
         return Err(fail(message, "take a light node that has a `space:` line, such as `spot_light`"));
@@ -43,7 +43,7 @@ pub(super) fn filter(woven: &Woven, command: &Render, context: &Context) -> Resu
     let (light, shadows) = wanted(woven)?;
     let Some(shadow) = shadows.first() else {
         let message = format!("the light `{}` has no shadow whose filter could be judged", light.id);
-        return Err(no_truth(message, "link a shadow behind it, or use --reference rays", light.place.clone()));
+        return Err(no_truth(message, "link a shadow behind it, or use --reference rays", light.place()));
     };
     let space = light.definition.header.space.as_ref();
     // Faces of a cube are known; parts depend on the eye.
@@ -62,7 +62,7 @@ pub(super) fn filter(woven: &Woven, command: &Render, context: &Context) -> Resu
         Some(Ok(number)) => Ok(number),
         Some(Err(_)) => {
             let message = format!("the option `{name}` of `{}` is not a number", shadow.id);
-            Err(no_truth(message, "give the width with --kernel", shadow.place.clone()))
+            Err(no_truth(message, "give the width with --kernel", shadow.place()))
         }
     };
     let width = match command.kernel {

@@ -89,13 +89,11 @@ fn by_path(a: (&str, &str), b: (&str, &str)) -> Ordering {
     if a.0 == b.0 {
         return a.1.cmp(b.1);
     }
-    let bytes = |(node, port): (&'_ str, &'_ str)| [node.to_owned(), port.to_owned()].join(".");
     let common = a.0.len().min(b.0.len());
-    match a.0.as_bytes()[..common].cmp(&b.0.as_bytes()[..common]) {
-        // One name begins the other: what follows the dot decides.
-        Ordering::Equal => bytes(a).cmp(&bytes(b)),
-        order => order,
-    }
+    let order = a.0.as_bytes()[..common].cmp(&b.0.as_bytes()[..common]);
+    // One name begins the other: the dot after the shorter meets what the longer goes on with, which is no dot.
+    let next = |node: &str| node.as_bytes().get(common).copied().unwrap_or(b'.');
+    order.then_with(|| next(a.0).cmp(&next(b.0)))
 }
 
 /// The most names of structures that the block of a program takes.

@@ -1,5 +1,6 @@
 //! The library and node declarations that a module needs, each once, under names that do not clash.
 
+use std::borrow::Cow;
 use std::collections::{BTreeMap, BTreeSet};
 
 use super::Reached;
@@ -121,7 +122,7 @@ pub(crate) fn gather(program: &Program, reached: &Reached, catalog: &Catalog, na
             let mut key = format!("{}\n{}", instance.definition.header.source.name, item.name);
             for part in &parts {
                 key.push('\n');
-                key.push_str(&instantiate(&part.text, &BTreeMap::new(), shape.as_deref()));
+                key.push_str(&instantiate(part, &BTreeMap::new(), shape.as_deref()));
             }
             let name = match written.get(&key) {
                 Some(name) => name.clone(),
@@ -140,8 +141,8 @@ pub(crate) fn gather(program: &Program, reached: &Reached, catalog: &Catalog, na
             renamed.insert(&item.name, name);
         }
         for item in fresh {
-            let text = instantiate(&item.text, &renamed, shape.as_deref());
-            functions.push(text, first_user.get(&index).copied());
+            let text = instantiate(item, &renamed, shape.as_deref());
+            functions.push(text.into_owned(), first_user.get(&index).copied());
         }
         let name = renamed.get(instance.function().name.as_str()).cloned().unwrap_or_default();
         functions.names.insert(index, name);
@@ -163,11 +164,19 @@ fn variants(program: &Program, reached: &Reached) -> BTreeSet<&'static str> {
     reached.resources.iter().filter_map(of).collect()
 }
 
-fn instantiate(text: &str, renamed: &BTreeMap<&str, String>, shape: Option<&str>) -> String {
-    rename(text, &|word| match (word, shape) {
+/// The text of a declaration with `T` and the names of other declarations replaced.
+fn instantiate<'a>(item: &'a Item, renamed: &BTreeMap<&str, String>, shape: Option<&str>) -> Cow<'a, str> {
+    let other = |word: &String| match (word.as_str(), shape) {
+        ("T", Some(_)) => true,
+        (word, _) => renamed.get(word).is_some_and(|new| new != word),
+    };
+    if !item.mentions.iter().any(other) {
+        return Cow::Borrowed(&item.text);
+    }
+    Cow::Owned(rename(&item.text, &|word| match (word, shape) {
         ("T", Some(shape)) => Some(shape.to_owned()),
         _ => renamed.get(word).cloned(),
-    })
+    }))
 }
 
 /// For each function the first node that calls it.

@@ -40,6 +40,13 @@ impl Names {
 
 /// A WGSL identifier near `name`: `car/spot light` becomes `car_spot_light`.
 pub(crate) fn sanitise(name: &str) -> String {
+    let plain = |pair: &[u8]| matches!(pair[1], b'a'..=b'z' | b'0'..=b'9') || (pair[1] == b'_' && pair[0] != b'_');
+    if name.as_bytes().windows(2).all(plain)
+        && name.starts_with(|c: char| c.is_ascii_lowercase())
+        && !name.ends_with('_')
+    {
+        return name.to_owned();
+    }
     let mut out = String::with_capacity(name.len());
     for c in name.chars() {
         let c = if c.is_ascii_alphanumeric() { c.to_ascii_lowercase() } else { '_' };

@@ -26,7 +26,7 @@ pub fn build(woven: &Woven, bake: Bake, unshadowed: bool) -> Program {
         .nodes
         .iter()
         .map(|n| {
-            let id: Arc<str> = n.id.as_str().into();
+            let id = n.id.clone();
             NodeInfo { short: short(&id), id, definition: n.definition.clone(), generic: n.generic.clone() }
         })
         .collect();

@@ -7,32 +7,54 @@ use crate::hash::HashMap;
 use petgraph::algo::toposort;
 use petgraph::graph::{DiGraph, NodeIndex};
 
-use super::{Found, Link};
+use super::{Found, Link, LinkPlace};
 use crate::compile::{MAX_REPORTED, NamedGraph};
-use crate::diagnostic::{Diagnostic, SourceText, Span, did_you_mean};
+use crate::diagnostic::{Diagnostic, Place, SourceText, Span, did_you_mean};
 use crate::graph::{self, Setting};
 use crate::node::{self, Catalog, Definition, Port};
 use crate::semantic::{Shape, Value};
 
 /// All nodes and links.
-pub(crate) struct Collected {
-    pub(crate) nodes: Vec<Found>,
-    pub(crate) links: Vec<Link>,
+pub(crate) struct Collected<'a> {
+    pub(crate) graphs: &'a [NamedGraph],
+    pub(crate) nodes: Vec<Found<'a>>,
+    pub(crate) links: Vec<Link<'a>>,
     /// Links into each node, by index into `links`; valid after [`Collected::reorder`].
     pub(crate) incoming: Vec<Vec<usize>>,
 }
 
-impl Collected {
+impl<'a> Collected<'a> {
+    /// Where a node was written.
+    pub(crate) fn place(&self, node: usize) -> Place {
+        let found = &self.nodes[node];
+        self.graphs[found.graph].graph.place(found.name)
+    }
+
+    /// Where a link was written.
+    pub(crate) fn link_place(&self, link: &Link<'_>) -> Place {
+        match &link.place {
+            LinkPlace::Written { graph, link } => self.graphs[*graph].graph.link_place(link),
+            LinkPlace::Joined { from, to } => {
+                let source = self.graphs[self.nodes[*from].graph].graph.source.as_ref();
+                let place = Place { file: source.map(|s| s.name.clone()), ..Place::default() };
+                place.node(&*self.nodes[*to].id)
+            }
+        }
+    }
+
     /// Puts the nodes into this order.
     pub(crate) fn reorder(&mut self, order: &[usize]) {
         let mut place = vec![0; order.len()];
         for (new, &old) in order.iter().enumerate() {
             place[old] = new;
         }
-        let mut nodes: Vec<Option<Found>> = self.nodes.drain(..).map(Some).collect();
+        let mut nodes: Vec<Option<Found<'a>>> = self.nodes.drain(..).map(Some).collect();
         self.nodes = order.iter().filter_map(|&old| nodes[old].take()).collect();
         for link in &mut self.links {
             (link.from, link.to) = (place[link.from], place[link.to]);
+            if let LinkPlace::Joined { from, to } = &mut link.place {
+                (*from, *to) = (link.from, link.to);
+            }
         }
         self.links
             .sort_by(|a, b| (a.to, &a.to_port, a.from, &a.from_port).cmp(&(b.to, &b.to_port, b.from, &b.from_port)));
@@ -44,12 +66,12 @@ impl Collected {
 }
 
 /// Name of a node among all graphs.
-pub(crate) fn identifier(graphs: &[NamedGraph], graph: usize, node: &str) -> String {
-    if graphs.len() > 1 { format!("{}/{node}", graphs[graph].name) } else { node.to_owned() }
+pub(crate) fn identifier(graphs: &[NamedGraph], graph: usize, node: &str) -> Arc<str> {
+    if graphs.len() > 1 { format!("{}/{node}", graphs[graph].name).into() } else { node.into() }
 }
 
-pub(crate) fn collect(graphs: &[NamedGraph], catalog: &Catalog, out: &mut Vec<Diagnostic>) -> Collected {
-    let mut collected = Collected { nodes: Vec::new(), links: Vec::new(), incoming: Vec::new() };
+pub(crate) fn collect<'a>(graphs: &'a [NamedGraph], catalog: &Catalog, out: &mut Vec<Diagnostic>) -> Collected<'a> {
+    let mut collected = Collected { graphs, nodes: Vec::new(), links: Vec::new(), incoming: Vec::new() };
     for (index, named) in graphs.iter().enumerate() {
         check_overrides(named, out);
         let mut position = HashMap::default();
@@ -73,8 +95,8 @@ pub(crate) fn collect(graphs: &[NamedGraph], catalog: &Catalog, out: &mut Vec<Di
                 bases: values.keys().filter_map(file).collect(),
                 values,
                 refused,
-                base: source.map(|s| s.name.clone()).unwrap_or_default(),
-                place: named.graph.place(name),
+                base: source.cloned(),
+                name,
             });
         }
         for (link, from, to) in bypass(&named.graph) {
@@ -82,8 +104,8 @@ pub(crate) fn collect(graphs: &[NamedGraph], catalog: &Catalog, out: &mut Vec<Di
             let (Some(&f), Some(&t)) = (position.get(from.node.as_str()), position.get(to.node.as_str())) else {
                 continue;
             };
-            let place = named.graph.link_place(link);
-            let woven = Link { from: f, from_port: from.port, to: t, to_port: to.port, place };
+            let place = LinkPlace::Written { graph: index, link };
+            let woven = Link { from: f, from_port: from.port.clone(), to: t, to_port: to.port.clone(), place };
             if check_ports(&collected.nodes, &woven, &named.graph, link, out) {
                 collected.links.push(woven);
             } else {
@@ -96,7 +118,10 @@ pub(crate) fn collect(graphs: &[NamedGraph], catalog: &Catalog, out: &mut Vec<Di
 }
 
 /// Links with muted nodes passed over: what fed a muted node feeds whatever it fed.
-fn bypass(graph: &graph::Graph) -> Vec<(&graph::Link, graph::End, graph::End)> {
+fn bypass(graph: &graph::Graph) -> Vec<(&graph::Link, &graph::End, &graph::End)> {
+    if graph.nodes.values().all(|n| !n.muted) {
+        return graph.links.iter().map(|link| (link, &link.from, &link.to)).collect();
+    }
     let muted = |name: &str| graph.nodes.get(name).is_some_and(|n| n.muted);
     // One source is enough to heal a wire; of several the first feeds on, as their order is by name.
     let mut source: HashMap<&str, Option<&graph::End>> = HashMap::default();
@@ -115,7 +140,7 @@ fn bypass(graph: &graph::Graph) -> Vec<(&graph::Link, graph::End, graph::End)> {
         for name in passed {
             source.insert(name, from);
         }
-        links.extend(from.map(|from| (link, from.clone(), link.to.clone())));
+        links.extend(from.map(|from| (link, from, &link.to)));
     }
     links
 }
@@ -237,6 +262,9 @@ fn values(
     out: &mut Vec<Diagnostic>,
 ) -> BTreeMap<String, Value> {
     let mut values = BTreeMap::new();
+    if node.params.is_empty() && named.set.is_empty() {
+        return values;
+    }
     let prefix = format!("{name}.");
     let overrides = named.set.iter().filter_map(|(path, v)| Some((path.strip_prefix(&prefix)?, v)));
     let overrides = overrides.map(|(port, v)| (port, v, named.graph.param_place(name, port)));
@@ -316,8 +344,8 @@ fn check_overrides(named: &NamedGraph, out: &mut Vec<Diagnostic>) {
 
 /// Whether the ports that a link names exist.
 fn check_ports(
-    nodes: &[Found],
-    link: &Link,
+    nodes: &[Found<'_>],
+    link: &Link<'_>,
     graph: &graph::Graph,
     written: &graph::Link,
     out: &mut Vec<Diagnostic>,
@@ -343,7 +371,7 @@ fn check_ports(
 }
 
 /// An order in which every node comes after what feeds it; the same for every order of the file.
-pub(crate) fn order(collected: &Collected, out: &mut Vec<Diagnostic>) -> Option<Vec<usize>> {
+pub(crate) fn order(collected: &Collected<'_>, out: &mut Vec<Diagnostic>) -> Option<Vec<usize>> {
     let mut graph = DiGraph::<(), ()>::with_capacity(collected.nodes.len(), collected.links.len());
     for _ in &collected.nodes {
         graph.add_node(());
@@ -358,7 +386,7 @@ pub(crate) fn order(collected: &Collected, out: &mut Vec<Diagnostic>) -> Option<
             let node = &collected.nodes[cycle.node_id().index()];
             let message = format!("`{}` feeds itself", node.id);
             let help = "remove one link of the cycle; what must come from the last frame cannot be said by links";
-            out.push(Diagnostic::error("ST0209", message, node.place.clone()).help(help));
+            out.push(Diagnostic::error("ST0209", message, collected.place(cycle.node_id().index())).help(help));
             None
         }
     }

@@ -4,11 +4,11 @@
 //! that no light of its own graph feeds. Given together, every end of the former is linked to every such node of the
 //! latter, abstractly, exactly as a person would draw it.
 
-use super::{Found, Link, is_light, is_lit, is_shadow};
+use super::{Found, Link, LinkPlace, is_light, is_lit, is_shadow};
 use crate::compile::NamedGraph;
-use crate::diagnostic::{Diagnostic, Place};
+use crate::diagnostic::Diagnostic;
 
-pub(crate) fn join(graphs: &[NamedGraph], nodes: &[Found], links: &mut Vec<Link>, out: &mut Vec<Diagnostic>) {
+pub(crate) fn join(graphs: &[NamedGraph], nodes: &[Found<'_>], links: &mut Vec<Link<'_>>, out: &mut Vec<Diagnostic>) {
     if graphs.len() < 2 {
         return;
     }
@@ -24,11 +24,7 @@ pub(crate) fn join(graphs: &[NamedGraph], nodes: &[Found], links: &mut Vec<Link>
     let lit: Vec<usize> = (0..nodes.len()).filter(|&i| is(i, is_lit) && !fed_by_lamp[i]).collect();
     for &to in &lit {
         for &from in ends.iter().filter(|&&from| nodes[from].graph != nodes[to].graph) {
-            let place = Place {
-                file: graphs[nodes[from].graph].graph.source.as_ref().map(|s| s.name.clone()),
-                ..Place::default()
-            };
-            let place = place.node(nodes[to].id.clone());
+            let place = LinkPlace::Joined { from, to };
             links.push(Link { from, from_port: None, to, to_port: None, place });
         }
     }
@@ -36,7 +32,10 @@ pub(crate) fn join(graphs: &[NamedGraph], nodes: &[Found], links: &mut Vec<Link>
         for &end in &ends {
             let message = format!("the light `{}` meets no surface that takes light", nodes[end].id);
             let help = "give a graph with a surface node, or give this file alone";
-            out.push(Diagnostic::warning("ST0210", message, nodes[end].place.clone()).help(help));
+            out.push(
+                Diagnostic::warning("ST0210", message, graphs[nodes[end].graph].graph.place(nodes[end].name))
+                    .help(help),
+            );
         }
     }
 }

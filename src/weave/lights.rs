@@ -50,7 +50,7 @@ pub(crate) fn follow(collected: &Collected, out: &mut Vec<Diagnostic>) -> Lights
             if reached.is_empty() && !unknown && !node.is_doubtful() && definition.inputs().any(needs_light) {
                 let message = format!("the shadow `{}` is on no light", node.id);
                 let help = format!("link a light to it: `\"LIGHT -> {}\"`", short(&node.id));
-                out.push(Diagnostic::error("ST0211", message, node.place.clone()).help(help));
+                out.push(Diagnostic::error("ST0211", message, collected.place(i)).help(help));
             }
             for shadows in reached.values_mut() {
                 shadows.insert(i);

@@ -18,7 +18,8 @@ use std::rc::Rc;
 use std::sync::Arc;
 
 use crate::compile::{NamedGraph, Output};
-use crate::diagnostic::{Diagnostic, Place, has_errors};
+use crate::diagnostic::{Diagnostic, Place, SourceText, Span, has_errors};
+use crate::graph;
 use crate::node::{Catalog, Definition, Port};
 use crate::semantic::{Chain, Conversions, Kind, Quantity, Shape, Type, Value};
 
@@ -35,7 +36,7 @@ pub struct Woven {
 /// A node with all of its inputs decided.
 pub struct Node {
     /// Name, with the graph's name and a `/` before it if there are several graphs.
-    pub id: String,
+    pub id: Arc<str>,
     /// What it computes.
     pub definition: Arc<Definition>,
     /// What `T` stands for, for generic definitions.
@@ -44,8 +45,11 @@ pub struct Node {
     pub inputs: BTreeMap<String, Wire>,
     /// Lights that reach this node through lights and shadows alone, each with the shadows on its way.
     pub lights: BTreeMap<usize, BTreeSet<usize>>,
-    /// Where it was written.
-    pub place: Place,
+    /// Where it was written, or else in which text.
+    span: Option<Span>,
+    source: Option<Arc<SourceText>>,
+    /// Where in `id` its name within its own graph begins.
+    name_at: usize,
 }
 
 /// What feeds an input.
@@ -84,6 +88,16 @@ pub enum Wire {
 }
 
 impl Node {
+    /// Where it was written.
+    pub fn place(&self) -> Place {
+        let place = match (&self.span, &self.source) {
+            (Some(span), _) => Place::span(span.clone()),
+            (None, Some(source)) => Place::file(&source.name),
+            (None, None) => Place::default(),
+        };
+        place.node(&self.id[self.name_at..])
+    }
+
     /// Type of an output once generics are chosen.
     pub fn output_type(&self, port: &Port) -> Type {
         instantiated(&port.ty, self.generic.as_ref())
@@ -130,31 +144,39 @@ pub(crate) fn is_light_port(definition: &Definition, port: &Port) -> bool {
 }
 
 /// A link between collected nodes.
-#[derive(Clone)]
-pub(crate) struct Link {
+pub(crate) struct Link<'a> {
     pub(crate) from: usize,
     pub(crate) from_port: Option<String>,
     pub(crate) to: usize,
     pub(crate) to_port: Option<String>,
-    pub(crate) place: Place,
+    pub(crate) place: LinkPlace<'a>,
+}
+
+/// Where a link comes from; its place in a file is looked up when somebody asks.
+pub(crate) enum LinkPlace<'a> {
+    /// A link of this graph.
+    Written { graph: usize, link: &'a graph::Link },
+    /// Drawn between two graphs, from and to the nodes with these indices.
+    Joined { from: usize, to: usize },
 }
 
 /// A node as collected: its definition is missing if it could not be had.
-pub(crate) struct Found {
-    pub(crate) id: String,
+pub(crate) struct Found<'a> {
+    pub(crate) id: Arc<str>,
     pub(crate) graph: usize,
+    /// Its name in that graph.
+    pub(crate) name: &'a str,
     pub(crate) definition: Option<Arc<Definition>>,
     pub(crate) values: BTreeMap<String, Value>,
     /// The file that each path among the values counts from, if it is not `base`.
     pub(crate) bases: BTreeMap<String, String>,
-    pub(crate) base: String,
-    pub(crate) place: Place,
+    pub(crate) base: Option<Arc<SourceText>>,
     /// Ports whose value or link was refused, and `*` for links that could have led anywhere: what is missing there
     /// has been reported already.
     pub(crate) refused: BTreeSet<String>,
 }
 
-impl Found {
+impl Found<'_> {
     /// Whether nothing can be said about what feeds this node or what it feeds.
     pub(crate) fn is_doubtful(&self) -> bool {
         self.definition.is_none() || self.refused.contains("*")
@@ -174,7 +196,7 @@ pub fn weave(graphs: &[NamedGraph], catalog: &Catalog, output: &Output) -> (Opti
     let lights = lights::follow(&collected, &mut diagnostics);
     let conversions = Conversions::default();
     let nodes = resolve::resolve(&collected, lights, &conversions, &mut diagnostics);
-    spaces::check(&nodes, &mut diagnostics);
+    spaces::check(&collected, &nodes, &mut diagnostics);
     let root = root::choose(graphs, &collected, &nodes, output, &conversions, &mut diagnostics);
     in_file_order(graphs, &mut diagnostics);
     // A node that could not be resolved is missing, so every index would be off: there is no partial result.

@@ -27,7 +27,7 @@ const HAS_DEFAULT: u64 = 1 << 24;
 const SEARCH_LIMIT: usize = 256;
 
 pub(crate) fn resolve(
-    collected: &Collected,
+    collected: &Collected<'_>,
     lights: Lights,
     conversions: &Conversions,
     out: &mut Vec<Diagnostic>,
@@ -44,27 +44,27 @@ pub(crate) fn resolve(
 }
 
 struct Work<'a> {
-    collected: &'a Collected,
+    collected: &'a Collected<'a>,
     conversions: &'a Conversions,
     done: &'a [Option<Node>],
     index: usize,
-    found: &'a Found,
+    found: &'a Found<'a>,
     definition: Arc<Definition>,
     lights: BTreeMap<usize, BTreeSet<usize>>,
 }
 
 /// The best output of a node for a port.
-struct Offer {
-    output: String,
+struct Offer<'a> {
+    output: &'a str,
     same_role: bool,
     chain: Rc<Chain>,
 }
 
-impl Work<'_> {
+impl<'a> Work<'a> {
     fn run(self, out: &mut Vec<Diagnostic>) -> Option<Node> {
         let before = out.len();
         let mut inputs = BTreeMap::new();
-        let incoming: Vec<&Link> =
+        let incoming: Vec<&Link<'_>> =
             self.collected.incoming[self.index].iter().map(|&l| &self.collected.links[l]).collect();
         // A neighbour with mistakes of its own has said so; what it would have fed is not reported as missing.
         let refused = self.found.refused.contains("*");
@@ -76,8 +76,8 @@ impl Work<'_> {
             let own = self.done[from].as_ref().map(|n| &n.lights).into_iter().flat_map(|l| l.keys());
             own.filter_map(|light| self.lights.get(light)).any(|shadows| shadows.contains(&from))
         };
-        let fed_by_light = |link: &&Link| self.lights.contains_key(&link.from) || on_the_way(link.from);
-        let open: Vec<&Link> = incoming
+        let fed_by_light = |link: &&Link<'_>| self.lights.contains_key(&link.from) || on_the_way(link.from);
+        let open: Vec<&Link<'_>> = incoming
             .iter()
             .copied()
             .filter(|l| l.to_port.is_none() && self.done[l.from].is_some() && !fed_by_light(l))
@@ -90,9 +90,19 @@ impl Work<'_> {
         if out[before..].iter().any(|d| d.severity == crate::diagnostic::Severity::Error) || blind {
             return None;
         }
-        let (id, place) = (self.found.id.clone(), self.found.place.clone());
-        let mut node =
-            Node { id, definition: self.definition.clone(), generic, inputs, lights: self.lights.clone(), place };
+        let Found { id, name, graph, .. } = self.found;
+        let graph = &self.collected.graphs[*graph].graph;
+        let spans = graph.nodes.get(*name).map(|n| &n.spans);
+        let mut node = Node {
+            id: id.clone(),
+            definition: self.definition.clone(),
+            generic,
+            inputs,
+            lights: self.lights.clone(),
+            span: spans.and_then(|s| s.name.as_ref().or(s.whole.as_ref())).cloned(),
+            source: graph.source.clone(),
+            name_at: id.len() - name.len(),
+        };
         self.widen(&mut node, out);
         Some(node)
     }
@@ -102,24 +112,24 @@ impl Work<'_> {
     }
 
     /// The best output of node `from` for `port`.
-    fn offer(&self, from: usize, from_port: Option<&str>, port: &Port) -> Option<Offer> {
+    fn offer(&self, from: usize, from_port: Option<&str>, port: &Port) -> Option<Offer<'a>> {
         let node = self.done[from].as_ref()?;
         let role = short(&node.id);
         let role = role.rsplit('/').next().unwrap_or(role);
         let outputs = node.definition.main.outputs.iter().filter(|o| from_port.is_none_or(|name| name == o.name));
         let offers = outputs.filter_map(|o| {
             let chain = self.conversions.chain(&node.output_type(o), &port.ty)?;
-            Some(Offer { output: o.name.clone(), same_role: o.name == port.name || role == port.name, chain })
+            Some(Offer { output: &o.name, same_role: o.name == port.name || role == port.name, chain })
         });
         // The first of equals: a node's first output is its primary one.
         offers.min_by_key(|o| (!o.same_role, o.chain.cost))
     }
 
-    fn wire(&self, from: usize, offer: &Offer) -> Wire {
-        Wire::Output { node: from, output: offer.output.clone(), chain: offer.chain.clone() }
+    fn wire(&self, from: usize, offer: &Offer<'_>) -> Wire {
+        Wire::Output { node: from, output: offer.output.to_owned(), chain: offer.chain.clone() }
     }
 
-    fn pinned(&self, incoming: &[&Link], inputs: &mut BTreeMap<String, Wire>, out: &mut Vec<Diagnostic>) {
+    fn pinned(&self, incoming: &[&Link<'_>], inputs: &mut BTreeMap<String, Wire>, out: &mut Vec<Diagnostic>) {
         let mut pinned = BTreeSet::new();
         for link in incoming {
             let Some(name) = &link.to_port else { continue };
@@ -127,7 +137,7 @@ impl Work<'_> {
             if !pinned.insert(name) {
                 let message = format!("two links lead to `{}.{name}`", self.found.id);
                 let help = "remove one, or combine the two with a node such as `add` or `mix_values`";
-                out.push(Diagnostic::error("ST0212", message, link.place.clone()).help(help));
+                out.push(Diagnostic::error("ST0212", message, self.collected.link_place(link)).help(help));
                 continue;
             }
             if self.done[link.from].is_none() {
@@ -150,21 +160,21 @@ impl Work<'_> {
             if port.ty.meaning.quantity == Quantity::Irradiance {
                 inputs.insert(port.name.clone(), Wire::Irradiance);
             } else if let Some(offer) = self.offer(light, None, port) {
-                inputs.insert(port.name.clone(), Wire::Light { output: offer.output, chain: offer.chain });
+                inputs.insert(port.name.clone(), Wire::Light { output: offer.output.to_owned(), chain: offer.chain });
             }
         }
     }
 
     /// Unpinned links of direct neighbours, assigned to the free ports together. Whether that could be done.
-    fn neighbours(&self, open: &[&Link], inputs: &mut BTreeMap<String, Wire>, out: &mut Vec<Diagnostic>) -> bool {
+    fn neighbours(&self, open: &[&Link<'_>], inputs: &mut BTreeMap<String, Wire>, out: &mut Vec<Diagnostic>) -> bool {
         let free: Vec<&Port> =
             self.ports().filter(|p| !inputs.contains_key(&p.name) && !is_light_port(&self.definition, p)).collect();
         if open.is_empty() {
             return true;
         }
-        let offers: Vec<Vec<Option<Offer>>> =
+        let offers: Vec<Vec<Option<Offer<'_>>>> =
             open.iter().map(|l| free.iter().map(|p| self.offer(l.from, l.from_port.as_deref(), p)).collect()).collect();
-        let price = |port: &Port, offer: &Option<Offer>| match offer {
+        let price = |port: &Port, offer: &Option<Offer<'_>>| match offer {
             None => NEVER,
             Some(o) => {
                 let role = if o.same_role { 0 } else { OTHER_ROLE };
@@ -190,7 +200,7 @@ impl Work<'_> {
             names.sort_unstable();
             let message =
                 format!("{} cannot all feed `{}`: it has too few fitting inputs", names.join(", "), self.found.id);
-            let mut error = Diagnostic::error("ST0214", message, open[open.len() - 1].place.clone());
+            let mut error = Diagnostic::error("ST0214", message, self.collected.link_place(open[open.len() - 1]));
             for port in &free {
                 error = error.note(format!("free: `{}`, {}", port.name, port.ty));
             }
@@ -231,7 +241,13 @@ impl Work<'_> {
     }
 
     /// Ports that nothing feeds yet.
-    fn rest(&self, inputs: &mut BTreeMap<String, Wire>, blind: bool, incoming: &[&Link], out: &mut Vec<Diagnostic>) {
+    fn rest(
+        &self,
+        inputs: &mut BTreeMap<String, Wire>,
+        blind: bool,
+        incoming: &[&Link<'_>],
+        out: &mut Vec<Diagnostic>,
+    ) {
         let definition = self.definition.clone();
         for port in definition.inputs() {
             if inputs.contains_key(&port.name) {
@@ -258,8 +274,9 @@ impl Work<'_> {
         if let Some(value) = self.found.values.get(&port.name) {
             return Some(match value {
                 Value::Text(path) => {
-                    let base = self.found.bases.get(&port.name).unwrap_or(&self.found.base);
-                    Wire::Image(path.clone(), base.clone())
+                    let own = || self.found.base.as_ref().map(|s| s.name.clone()).unwrap_or_default();
+                    let base = self.found.bases.get(&port.name).cloned().unwrap_or_else(own);
+                    Wire::Image(path.clone(), base)
                 }
                 other => Wire::Value(other.clone()),
             });
@@ -291,7 +308,7 @@ impl Work<'_> {
                     }
                 }
             }
-            let mut offers: Vec<(usize, Offer)> =
+            let mut offers: Vec<(usize, Offer<'_>)> =
                 next.iter().filter_map(|&n| Some((n, self.offer(n, None, port)?))).collect();
             offers.sort_by_key(|(n, o)| (!o.same_role, o.chain.cost, *n));
             if let [(node, best), others @ ..] = offers.as_slice() {
@@ -303,7 +320,7 @@ impl Work<'_> {
                         format!("`{}` or `{}` could feed `{}.{}`", names[0], names[1], self.found.id, port.name);
                     let pin = |n: &str| format!("`\"{} -> {}.{}\"`", short(n), short(&self.found.id), port.name);
                     let help = format!("pin one: {} or {}", pin(names[0]), pin(names[1]));
-                    let place = self.found.place.clone().port(&port.name);
+                    let place = self.collected.place(self.index).port(&port.name);
                     return Err(Box::new(Diagnostic::error("ST0216", message, place).help(help)));
                 }
                 return Ok(Some(self.wire(*node, best)));
@@ -337,7 +354,7 @@ impl Work<'_> {
         }
         let message = format!("`{}` ({}) does not work on {width} components", self.found.id, self.definition.kind);
         let help = format!("it works on {}", list(choices.iter().map(|s| format!("`{}`", s.wgsl()))));
-        out.push(Diagnostic::error("ST0218", message, self.found.place.clone()).help(help));
+        out.push(Diagnostic::error("ST0218", message, self.collected.place(self.index)).help(help));
         None
     }
 
@@ -359,7 +376,10 @@ impl Work<'_> {
                         wanted.shape.wgsl()
                     );
                     let help = "give all inputs of the node the same number of components (one alone is spread)";
-                    out.push(Diagnostic::error("ST0218", message, node.place.clone().port(&port.name)).help(help));
+                    out.push(
+                        Diagnostic::error("ST0218", message, self.collected.place(self.index).port(&port.name))
+                            .help(help),
+                    );
                 }
             }
         }

@@ -103,7 +103,7 @@ pub fn light_called<'a>(names: impl Iterator<Item = &'a str> + Clone, wanted: &s
 fn find_light(collected: &Collected, nodes: &[Option<Node>], name: &str, out: &mut Vec<Diagnostic>) -> Option<usize> {
     let lights: Vec<usize> =
         (0..nodes.len()).filter(|i| nodes[*i].as_ref().is_some_and(|n| n.lights.contains_key(i))).collect();
-    let id = |i: &usize| collected.nodes[*i].id.as_str();
+    let id = |i: &usize| &*collected.nodes[*i].id;
     let called = light_called(lights.iter().map(id), name);
     let found = called.and_then(|full| lights.iter().copied().find(|i| id(i) == full));
     if found.is_none() {
@@ -140,7 +140,7 @@ fn seen(
             for (other, _) in values.iter().filter(|(i, _)| left(*i)) {
                 let message = format!("`{}` feeds nothing and is left out", collected.nodes[*other].id);
                 let help = "link it to something, or name it as the graph's `output`";
-                out.push(Diagnostic::warning("ST0220", message, collected.nodes[*other].place.clone()).help(help));
+                out.push(Diagnostic::warning("ST0220", message, collected.place(*other)).help(help));
             }
             finish(graphs, *node, port.as_deref(), collected, nodes, conversions, out)
         }
@@ -161,7 +161,7 @@ fn seen(
                 "say `output: \"{}\"`, or combine them with `mix_surface` or `add_surface`",
                 super::lights::short(&collected.nodes[*first].id)
             );
-            out.push(Diagnostic::error("ST0221", message, collected.nodes[*first].place.clone()).help(help));
+            out.push(Diagnostic::error("ST0221", message, collected.place(*first)).help(help));
             None
         }
     }
@@ -233,7 +233,7 @@ fn finish(
         if is_lit(&node.definition) && node.lights.is_empty() && !doubtful {
             let message = format!("no light shines on `{}`: only its ambient part is seen", node.id);
             let help = "link a light to it, give the file of a light as well, or add a light to the scene";
-            out.push(Diagnostic::warning("ST0223", message, node.place.clone()).help(help));
+            out.push(Diagnostic::warning("ST0223", message, collected.place(index)).help(help));
         }
         return Some(Root::Surface { node: index });
     }
@@ -243,7 +243,7 @@ fn finish(
         let error = Diagnostic::error(
             "ST0222",
             format!("`{}` has no output `{wanted}`", node.id),
-            graphs[collected.nodes[index].graph].graph.output_place().node(&node.id),
+            graphs[collected.nodes[index].graph].graph.output_place().node(&*node.id),
         );
         out.push(suggest(error, wanted, &names, "its outputs are"));
         return None;
@@ -261,7 +261,7 @@ fn finish(
         _ => {
             let message = format!("`{}.{}` is {ty} and cannot be shown", node.id, output.name);
             out.push(
-                Diagnostic::error("ST0224", message, node.place.clone())
+                Diagnostic::error("ST0224", message, collected.place(index))
                     .help("link it to a node that makes a colour of it"),
             );
             return None;

@@ -2,14 +2,16 @@
 
 use std::collections::BTreeSet;
 
+use super::collect::Collected;
 use super::{Node, Wire, is_shadow};
 use crate::diagnostic::Diagnostic;
 
 /// Checks every light that carries a shadow with a map: it has a projection, and that comes from values, not links,
 /// because the passes run before the shader does.
-pub(crate) fn check(nodes: &[Option<Node>], out: &mut Vec<Diagnostic>) {
+pub(crate) fn check(collected: &Collected<'_>, nodes: &[Option<Node>], out: &mut Vec<Diagnostic>) {
     let mut checked: BTreeSet<usize> = BTreeSet::new();
-    for node in nodes.iter().flatten() {
+    for (index, node) in nodes.iter().enumerate() {
+        let Some(node) = node else { continue };
         if !is_shadow(&node.definition) || !node.inputs.values().any(|w| matches!(w, Wire::Space | Wire::Map)) {
             continue;
         }
@@ -18,7 +20,7 @@ pub(crate) fn check(nodes: &[Option<Node>], out: &mut Vec<Diagnostic>) {
             let Some(space) = &lamp.definition.header.space else {
                 let message = format!("`{}` ({}) cannot carry the shadow `{}`", lamp.id, lamp.definition.kind, node.id);
                 let help = "maps need a light with a `space:` line, such as `spot_light`, `point_light` or `directional_light`";
-                out.push(Diagnostic::error("ST0226", message, node.place.clone()).help(help));
+                out.push(Diagnostic::error("ST0226", message, collected.place(index)).help(help));
                 continue;
             };
             for input in space.inputs_of(&lamp.definition) {
@@ -28,7 +30,7 @@ pub(crate) fn check(nodes: &[Option<Node>], out: &mut Vec<Diagnostic>) {
                         lamp.id
                     );
                     let help = format!("remove the link to `{input}` and set it under `params`, or remove the shadow");
-                    out.push(Diagnostic::error("ST0227", message, lamp.place.clone().port(input)).help(help));
+                    out.push(Diagnostic::error("ST0227", message, collected.place(light).port(input)).help(help));
                 }
             }
         }

@@ -26,7 +26,7 @@ impl Work<'_> {
             port.ty
         );
         let help = outputs.first().and_then(|o| missing_conversion(&from.output_type(o), &port.ty));
-        let error = Diagnostic::error("ST0213", message, link.place.clone());
+        let error = Diagnostic::error("ST0213", message, self.collected.link_place(link));
         match help {
             Some(help) => error.help(help),
             None => error.help("put a node between them that makes the one from the other"),
@@ -36,7 +36,7 @@ impl Work<'_> {
     pub(super) fn contributes_nothing(&self, link: &Link, free: &[&Port]) -> Diagnostic {
         let from = self.done[link.from].as_ref().expect("only resolved neighbours are open");
         let message = format!("`{}` contributes nothing to `{}`", from.id, self.found.id);
-        let mut error = Diagnostic::error("ST0215", message, link.place.clone());
+        let mut error = Diagnostic::error("ST0215", message, self.collected.link_place(link));
         let given =
             from.definition.main.outputs.iter().filter(|o| link.from_port.as_ref().is_none_or(|n| *n == o.name));
         for output in given {
@@ -59,7 +59,7 @@ impl Work<'_> {
         &self,
         open: &[&Link],
         free: &[&Port],
-        offers: &[Vec<Option<Offer>>],
+        offers: &[Vec<Option<Offer<'_>>>],
         cost: &[Vec<u64>],
         row: usize,
         one: usize,
@@ -70,7 +70,7 @@ impl Work<'_> {
             "`{}` could feed `{}` or `{}` of `{}`, and nothing tells which",
             from.id, free[one].name, free[other].name, self.found.id
         );
-        let mut error = Diagnostic::error("ST0216", message, open[row].place.clone());
+        let mut error = Diagnostic::error("ST0216", message, self.collected.link_place(open[row]));
         let mut candidates: Vec<usize> = (0..free.len()).filter(|c| cost[row][*c] < NEVER).collect();
         candidates.sort_by_key(|c| cost[row][*c]);
         let equal = |c: &usize| *c == one || *c == other || cost[row][*c] == cost[row][one];
@@ -93,7 +93,7 @@ impl Work<'_> {
 
     pub(super) fn missing(&self, port: &Port, incoming: &[&Link]) -> Diagnostic {
         let message = format!("nothing feeds `{}` of `{}`, which needs {}", port.name, self.found.id, port.ty);
-        let place = self.found.place.clone().port(&port.name);
+        let place = self.collected.place(self.index).port(&port.name);
         let mut error = Diagnostic::error("ST0217", message, place);
         for link in incoming.iter().filter(|l| l.to_port.is_none()).take(4) {
             let Some(node) = &self.done[link.from] else { continue };
