@@ -6,25 +6,25 @@ use super::Graph;
 use crate::ron::{Comment, Document};
 
 /// Something that a comment can belong to.
-pub(super) enum Target {
-    Node(String),
+pub(super) enum Target<'a> {
+    Node(&'a str),
     /// Index into the links, before they are sorted.
     Link(usize),
 }
 
 /// A target and where it stands.
-pub(super) struct Item {
+pub(super) struct Item<'a> {
     pub(super) span: Range<usize>,
-    pub(super) target: Target,
+    pub(super) target: Target<'a>,
 }
 
 /// Puts each comment of the document into the note that it belongs to.
-pub(super) fn keep(document: &Document, text: &str, mut items: Vec<Item>, graph: &mut Graph) {
+pub(super) fn keep(document: &Document, text: &str, mut items: Vec<Item<'_>>, graph: &mut Graph) {
     items.sort_by_key(|item| item.span.start);
     let owners = owners(&document.comments, text, &items);
     for (comment, owner) in document.comments.iter().zip(owners) {
         let note = match owner.map(|index| &items[index].target) {
-            Some(Target::Node(name)) => graph.nodes.get_mut(name).map(|n| &mut n.note),
+            Some(Target::Node(name)) => graph.nodes.get_mut(*name).map(|n| &mut n.note),
             Some(Target::Link(index)) => graph.links.get_mut(*index).map(|l| &mut l.note),
             None => None,
         };
@@ -33,7 +33,7 @@ pub(super) fn keep(document: &Document, text: &str, mut items: Vec<Item>, graph:
 }
 
 /// The item that each comment belongs to; none: the graph.
-fn owners(comments: &[Comment], text: &str, items: &[Item]) -> Vec<Option<usize>> {
+fn owners(comments: &[Comment], text: &str, items: &[Item<'_>]) -> Vec<Option<usize>> {
     let mut owners = vec![None; comments.len()];
     // Where the run of comments right above the item `follows` begins; walked from the end of the file.
     let mut run = None;

@@ -1,12 +1,16 @@
 //! From text to graph, with everything that is wrong on the way.
 
 use std::collections::{BTreeMap, BTreeSet};
+use std::hash::BuildHasher;
 use std::ops::Range;
 use std::sync::Arc;
+
+use foldhash::fast::RandomState;
 
 use super::comments::{Item, Target};
 use super::{End, Expose, Graph, Link, MAX_LINKS, check, comments, migrate, read_node};
 use crate::diagnostic::{Diagnostic, Place, SourceText, Span, did_you_mean};
+use crate::hash::HashMap;
 use crate::ron::{self, Field, Node, Tree, expect_fields, field, unknown_fields};
 
 /// What was found wrong so far.
@@ -130,19 +134,25 @@ fn root_fields(root: &mut Node, report: &mut Report) -> Option<Vec<Field>> {
     None
 }
 
-fn links(list: &[Node], graph: &mut Graph, items: &mut Vec<Item>, report: &mut Report) {
+fn links(list: &[Node], graph: &mut Graph, items: &mut Vec<Item<'_>>, report: &mut Report) {
     if list.len() > MAX_LINKS {
         let message = format!("the graph has {} links; at most {MAX_LINKS} are handled", list.len());
         report.push(Diagnostic::error("ST0060", message, report.at(list[MAX_LINKS].span.clone())));
         return;
     }
-    let mut seen: BTreeMap<(End, End), usize> = BTreeMap::new();
+    let hasher = RandomState::default();
+    // By hash of the ends, or the next number that was free.
+    let mut seen: HashMap<u64, usize> = HashMap::default();
     for node in list {
         let Some(link) = link(node, report) else {
             continue;
         };
-        let ends = (link.from.clone(), link.to.clone());
-        let index = *seen.entry(ends).or_insert(graph.links.len());
+        let mut key = hasher.hash_one(link.ends());
+        let other = |index: &usize| graph.links.get(*index).is_some_and(|known| known.ends() != link.ends());
+        while seen.get(&key).is_some_and(other) {
+            key = key.wrapping_add(1);
+        }
+        let index = *seen.entry(key).or_insert(graph.links.len());
         items.push(Item { span: node.span.clone(), target: Target::Link(index) });
         if let Some(first) = graph.links.get_mut(index) {
             let message = format!("the link `{link}` is given twice");

@@ -9,7 +9,12 @@ use crate::semantic::Value;
 
 const KNOWN: [&str; 7] = ["kind", "graph", "wgsl", "params", "options", "muted", "note"];
 
-pub(super) fn nodes(map: &[(ron::Node, ron::Node)], graph: &mut Graph, items: &mut Vec<Item>, report: &mut Report) {
+pub(super) fn nodes<'a>(
+    map: &'a [(ron::Node, ron::Node)],
+    graph: &mut Graph,
+    items: &mut Vec<Item<'a>>,
+    report: &mut Report,
+) {
     if map.len() > MAX_NODES {
         let message = format!("the graph has {} nodes; at most {MAX_NODES} are handled", map.len());
         let help = "an image or a node of your own does more with fewer nodes";
@@ -31,7 +36,7 @@ pub(super) fn nodes(map: &[(ron::Node, ron::Node)], graph: &mut Graph, items: &m
         let mut node = node(name, value, report);
         node.spans.name = Some(Span::new(&source, key.span.clone()));
         node.spans.whole = Some(Span::new(&source, span.clone()));
-        items.push(Item { span, target: Target::Node(name.to_string()) });
+        items.push(Item { span, target: Target::Node(name) });
         graph.nodes.insert(name.to_string(), node);
     }
 }

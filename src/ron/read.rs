@@ -230,7 +230,7 @@ impl Reader<'_> {
         self.blank()?;
         let first = self.at;
         let comments = self.comments.len();
-        let is_struct = self.identifier().is_some() && {
+        let is_struct = self.word().is_some() && {
             self.blank()?;
             self.rest().starts_with(':')
         };

@@ -31,6 +31,10 @@ impl Reader<'_> {
     pub(super) fn blank(&mut self) -> Result<(), Mistake> {
         loop {
             let rest = self.rest();
+            // The most common end of a blank, before looking closer.
+            if rest.starts_with(|c: char| c.is_ascii_graphic() && c != '/') {
+                return Ok(());
+            }
             self.at += rest.len() - rest.trim_start().len();
             let start = self.at;
             let Some(block) = self.comment()? else {
@@ -73,6 +77,11 @@ impl Reader<'_> {
 
     /// A plain or raw identifier, if one starts here.
     pub(super) fn identifier(&mut self) -> Option<String> {
+        self.word().map(|word| self.text[word].to_string())
+    }
+
+    /// The bytes of an identifier, if one starts here.
+    pub(super) fn word(&mut self) -> Option<Range<usize>> {
         let raw = self.rest().starts_with("r#") && !self.rest()[2..].starts_with(['"', '#']);
         let body = if raw { &self.rest()[2..] } else { self.rest() };
         let inside = |c: char| c.is_alphanumeric() || c == '_' || (raw && matches!(c, '.' | '+' | '-'));
@@ -80,9 +89,9 @@ impl Reader<'_> {
         if end == 0 || (!raw && body.starts_with(char::is_numeric)) {
             return None;
         }
-        let word = body[..end].to_string();
-        self.at += end + if raw { 2 } else { 0 };
-        Some(word)
+        let start = self.at + if raw { 2 } else { 0 };
+        self.at = start + end;
+        Some(start..self.at)
     }
 
     /// A number, if one starts here. Only its extent is found; its value is read by whoever needs it.
@@ -138,7 +147,7 @@ impl Reader<'_> {
         self.at += 1;
         let mut text = String::new();
         loop {
-            let Some(plain) = self.rest().find(['"', '\\']) else {
+            let Some(plain) = self.rest().bytes().position(|b| b == b'"' || b == b'\\') else {
                 self.at = self.text.len();
                 return Err(fatal("ST0002", "this string is not closed by `\"`", start..start + 1));
             };

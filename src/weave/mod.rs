@@ -7,6 +7,7 @@
 
 mod assign;
 mod collect;
+mod inputs;
 mod join;
 mod lights;
 mod resolve;
@@ -23,6 +24,7 @@ use crate::graph;
 use crate::node::{Catalog, Definition, Port};
 use crate::semantic::{Chain, Conversions, Kind, Quantity, Shape, Type, Value};
 
+pub use inputs::Inputs;
 pub use root::{Root, light_called};
 
 /// Resolved wiring, in evaluation order.
@@ -42,7 +44,7 @@ pub struct Node {
     /// What `T` stands for, for generic definitions.
     pub generic: Option<Shape>,
     /// What feeds each input. An input that only matters under a light may be missing when there is none.
-    pub inputs: BTreeMap<String, Wire>,
+    pub inputs: Inputs,
     /// Lights that reach this node through lights and shadows alone, each with the shadows on its way.
     pub lights: BTreeMap<usize, BTreeSet<usize>>,
     /// Where it was written, or else in which text.

@@ -14,7 +14,7 @@ use std::sync::Arc;
 use super::assign::{NEVER, alternative, assign};
 use super::collect::Collected;
 use super::lights::{Lights, short};
-use super::{Found, Link, Node, Wire, instantiated, is_light, is_light_port, is_shadow};
+use super::{Found, Inputs, Link, Node, Wire, instantiated, is_light, is_light_port, is_shadow};
 use crate::diagnostic::Diagnostic;
 use crate::node::{Default, Definition, Port};
 use crate::semantic::{Chain, Conversions, Kind, Quantity, Shape, Value};
@@ -63,7 +63,7 @@ struct Offer<'a> {
 impl<'a> Work<'a> {
     fn run(self, out: &mut Vec<Diagnostic>) -> Option<Node> {
         let before = out.len();
-        let mut inputs = BTreeMap::new();
+        let mut inputs = Inputs::default();
         let incoming: Vec<&Link<'_>> =
             self.collected.incoming[self.index].iter().map(|&l| &self.collected.links[l]).collect();
         // A neighbour with mistakes of its own has said so; what it would have fed is not reported as missing.
@@ -129,7 +129,7 @@ impl<'a> Work<'a> {
         Wire::Output { node: from, output: offer.output.to_owned(), chain: offer.chain.clone() }
     }
 
-    fn pinned(&self, incoming: &[&Link<'_>], inputs: &mut BTreeMap<String, Wire>, out: &mut Vec<Diagnostic>) {
+    fn pinned(&self, incoming: &[&Link<'_>], inputs: &mut Inputs, out: &mut Vec<Diagnostic>) {
         let mut pinned = BTreeSet::new();
         for link in incoming {
             let Some(name) = &link.to_port else { continue };
@@ -151,7 +151,7 @@ impl<'a> Work<'a> {
     }
 
     /// Ports that only a light can feed take its outputs by type.
-    fn under_lights(&self, inputs: &mut BTreeMap<String, Wire>) {
+    fn under_lights(&self, inputs: &mut Inputs) {
         let Some(&light) = self.lights.keys().next().filter(|l| **l != self.index) else { return };
         for port in self.ports() {
             if inputs.contains_key(&port.name) || !is_light_port(&self.definition, port) {
@@ -166,7 +166,7 @@ impl<'a> Work<'a> {
     }
 
     /// Unpinned links of direct neighbours, assigned to the free ports together. Whether that could be done.
-    fn neighbours(&self, open: &[&Link<'_>], inputs: &mut BTreeMap<String, Wire>, out: &mut Vec<Diagnostic>) -> bool {
+    fn neighbours(&self, open: &[&Link<'_>], inputs: &mut Inputs, out: &mut Vec<Diagnostic>) -> bool {
         let free: Vec<&Port> =
             self.ports().filter(|p| !inputs.contains_key(&p.name) && !is_light_port(&self.definition, p)).collect();
         if open.is_empty() {
@@ -241,13 +241,7 @@ impl<'a> Work<'a> {
     }
 
     /// Ports that nothing feeds yet.
-    fn rest(
-        &self,
-        inputs: &mut BTreeMap<String, Wire>,
-        blind: bool,
-        incoming: &[&Link<'_>],
-        out: &mut Vec<Diagnostic>,
-    ) {
+    fn rest(&self, inputs: &mut Inputs, blind: bool, incoming: &[&Link<'_>], out: &mut Vec<Diagnostic>) {
         let definition = self.definition.clone();
         for port in definition.inputs() {
             if inputs.contains_key(&port.name) {
@@ -331,7 +325,7 @@ impl<'a> Work<'a> {
     }
 
     /// The shape of `T`: as wide as the widest thing linked or given to a generic input.
-    fn generic(&self, inputs: &BTreeMap<String, Wire>, out: &mut Vec<Diagnostic>) -> Option<Shape> {
+    fn generic(&self, inputs: &Inputs, out: &mut Vec<Diagnostic>) -> Option<Shape> {
         let choices = &self.definition.header.generic;
         let first = choices.first()?;
         let linked = self.definition.inputs().filter(|p| p.ty.shape == Shape::Generic).filter_map(|p| {
