@@ -38,21 +38,17 @@ fn vs_main(@location(0) position: vec3f) -> Varying {
 
 @fragment
 fn fs_main(fragment_in: Varying) -> @builtin(frag_depth) f32 {
-//#if metric == radial
-    let distance = fragment_in.in_light.z;
+//#if metric == linear
+    let depth = light_linear_depth(light, fragment_in.distance);
+//#elif metric == zw
+    let depth = light_depth_zw(light, vec3f(0.0, 0.0, fragment_in.distance));
 //#else
-    let distance = fragment_in.distance;
+    let depth = light_depth_radial(light, fragment_in.in_light);
 //#end
-    // The near plane clips. Only triangles thinner than the rasteriser's grid have fragments before it, at depths that
-    // have nothing to do with their vertices: they would count as occluders at the light.
-    if (light_linear_depth(light, distance) < -1e-4) {
+    // Only triangles thinner than the rasteriser's grid have fragments before the near plane, which clips, or at a depth
+    // that is no number: neither comparison holds for those. They would count as occluders at the light.
+    if (!(depth >= -1e-4)) {
         discard;
     }
-//#if metric == linear
-    return saturate(light_linear_depth(light, distance));
-//#elif metric == zw
-    return saturate(light_depth_zw(light, vec3f(0.0, 0.0, distance)));
-//#else
-    return saturate(light_depth_radial(light, fragment_in.in_light));
-//#end
+    return saturate(depth);
 }

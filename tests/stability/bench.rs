@@ -14,8 +14,9 @@ use crate::support::{catalog, graph_file, graph_text, prove, show};
 pub(super) const SHADOWS: [&str; 3] = ["hard_shadow", "pcf_shadow", "variance_shadow"];
 
 /// Shadow nodes that do what textbooks warn of: they show the failures that the nodes of the catalogue avoid.
-const NAIVE: [(&str, &str); 2] = [
+const NAIVE: [(&str, &str); 3] = [
     ("naive_pcf", include_str!("nodes/naive_pcf.wgsl")),
+    ("split_index", include_str!("nodes/split_index.wgsl")),
     ("implicit_variance", include_str!("nodes/implicit_variance.wgsl")),
 ];
 
@@ -75,4 +76,16 @@ impl Numbers {
 pub(super) fn look_with(stage: &mut Stage, gpu: &mut Gpu, shader: &Compiled, name: &str, value: f64) -> Vec<f64> {
     stage.set(&format!("light/shadow.{name}"), &[value]);
     stage.look(gpu, shader)
+}
+
+/// A picture to look at, in the folder that `STABILITY_PICTURES` names; none without it.
+pub(super) fn picture(name: &str, values: &[f64], (width, height): (u32, u32)) {
+    let Some(folder) = std::env::var_os("STABILITY_PICTURES") else { return };
+    #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "clamped to a byte")]
+    let bytes = values.iter().map(|v| (v.clamp(0.0, 1.0) * 255.0).round() as u8).collect();
+    let picture = image::GrayImage::from_raw(width, height, bytes).expect("a value for each pixel");
+    let scale = (512 / width.max(height)).max(1);
+    let picture =
+        image::imageops::resize(&picture, width * scale, height * scale, image::imageops::FilterType::Nearest);
+    picture.save(std::path::Path::new(&folder).join(format!("{name}.png"))).expect("a picture");
 }
