@@ -10,6 +10,8 @@ mod bias;
 mod bleeding;
 mod depths;
 mod formats;
+mod motion;
 mod places;
 mod scales;
+mod splits;
 mod table;
