@@ -5,7 +5,7 @@ use serde_json::{Map, Value as Json, json};
 use crate::compile::Compiled;
 use crate::export::{Class, slots};
 use crate::module::{Attribute, Binding, FRAME_BYTES, OBJECT_BYTES, Parameter, Resource, SamplerSettings};
-use crate::plan::{Light, PassKind, Plan};
+use crate::plan::{Light, Pass, Plan};
 use crate::semantic::Value;
 use crate::verify::Verified;
 
@@ -117,28 +117,27 @@ fn attribute(attribute: Attribute) -> Json {
     json!({ "name": name, "location": attribute.location(), "format": format })
 }
 
+fn pass(pass: &Pass) -> Json {
+    json!({
+        "name": pass.name,
+        "kind": pass.kind.name(),
+        "options": pass.choices,
+        "formats": pass.targets,
+        "clear": pass.clear,
+        "light": pass.reads_light,
+        "repeat": pass.repeat,
+        "otherwise": pass.otherwise.as_deref().map(self::pass),
+        "wgsl": pass.wgsl,
+    })
+}
+
 fn plan(plan: &Plan) -> Json {
     let light = |light: &Light| {
         let space = light.space.as_ref().map(|s| json!({ "projection": s.projection, "inputs": s.inputs }));
         json!({ "name": light.name, "space": space })
     };
     let maps = plan.maps.iter().map(|map| {
-        let passes = map.passes.iter().map(|pass| {
-            let kind = match pass.kind {
-                PassKind::Geometry => "geometry",
-                PassKind::Image => "image",
-                PassKind::Mip => "mip",
-            };
-            json!({
-                "name": pass.name,
-                "kind": kind,
-                "options": pass.choices,
-                "formats": pass.targets,
-                "clear": pass.clear,
-                "wgsl": pass.wgsl,
-            })
-        });
-        let passes: Vec<Json> = passes.collect();
+        let passes: Vec<Json> = map.passes.iter().map(pass).collect();
         json!({ "light": map.light, "size": map.size(), "filtered": map.filtered, "passes": passes })
     });
     json!({

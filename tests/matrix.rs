@@ -1,13 +1,13 @@
 //! Every light under every shadow on every surface, and every node by itself with every option: naga accepts all.
 //! Tint accepts all as well.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write as _;
 
 use shadetree::compile::{Compiled, NamedGraph, Options};
 use shadetree::diagnostic::SourceText;
 use shadetree::module::Module;
-use shadetree::node::{Definition, Port};
+use shadetree::node::{Definition, PassKind, Port};
 use shadetree::plan::Plan;
 use shadetree::semantic::{Kind, Shape};
 
@@ -128,7 +128,7 @@ fn every_node_weaves_alone_with_every_option_and_width() {
 /// Every fixed pass with every choice of each option: naga and Tint accept it.
 #[test]
 fn every_pass_is_accepted() {
-    let mut modules = Vec::new();
+    let (mut modules, mut kinds) = (Vec::new(), BTreeSet::new());
     for name in catalog().pass_names() {
         let pass = catalog().pass(name).expect("listed").expect("embedded passes are sound");
         for option in &pass.options {
@@ -136,6 +136,12 @@ fn every_pass_is_accepted() {
                 let choices = BTreeMap::from([(option.name.clone(), choice.clone())]);
                 let wgsl = pass.text(&choices, catalog()).expect("embedded passes are sound");
                 let name = format!("{name}-{}-{choice}", option.name);
+                let entries: &[&str] =
+                    if pass.kind == PassKind::Compute { &["cs_main"] } else { &["vs_main", "fs_main"] };
+                let all = ["vs_main", "fs_main", "cs_main"];
+                let found: Vec<&str> = all.into_iter().filter(|e| wgsl.contains(&format!("fn {e}("))).collect();
+                assert_eq!(found, entries, "{name}");
+                kinds.insert(pass.kind);
                 let compiled =
                     Compiled { module: Module { wgsl: wgsl.clone(), ..Module::default() }, plan: Plan::default() };
                 prove(&compiled, &name);
@@ -143,6 +149,7 @@ fn every_pass_is_accepted() {
             }
         }
     }
+    assert_eq!(kinds, PassKind::ALL.map(|(_, kind)| kind).into(), "a pass of each kind");
     accepted_by_tint(&modules);
 }
 

@@ -12,6 +12,7 @@ mod functions;
 mod header;
 mod items;
 mod pass;
+mod pass_header;
 mod ports;
 mod projection;
 mod report;

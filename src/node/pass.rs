@@ -5,9 +5,8 @@ use std::sync::Arc;
 
 use super::catalog::Catalog;
 use super::definition::{Choices, Item, OptionSpec};
-use super::file::{self, resolve, stem};
-use super::report::{Piece, Report, lines};
-use super::settings;
+use super::file::{self, resolve};
+use super::report::Report;
 use crate::diagnostic::{Diagnostic, Place, SourceText, did_you_mean};
 
 /// What a pass runs over.
@@ -19,8 +18,22 @@ pub enum PassKind {
     /// Every texel of an image: a full-screen triangle that reads group 0 binding 0 (`texture_2d<f32>`) and writes a
     /// texture of the same size and format.
     Image,
+    /// The same by a compute shader (`cs_main`): group 0 binding 0 is read, and the texture at binding 1, of the same size,
+    /// is stored to. There are invocations for all texels, and some beyond the last.
+    Compute,
     /// Every texel of every mip level but the first: as an image pass, but from each level of a texture to the next.
     Mip,
+}
+
+impl PassKind {
+    /// Every kind with the name that headers give it.
+    pub const ALL: [(&'static str, Self); 4] =
+        [("geometry", Self::Geometry), ("image", Self::Image), ("compute", Self::Compute), ("mip", Self::Mip)];
+
+    /// The name that headers give it.
+    pub fn name(self) -> &'static str {
+        Self::ALL.iter().find(|(_, kind)| *kind == self).map_or("", |(name, _)| name)
+    }
 }
 
 /// `skip: NAME == VALUE`: the pass does nothing for that choice and is left out.
@@ -51,194 +64,21 @@ pub struct PassFile {
     pub axes: Vec<String>,
     /// When it is left out.
     pub skip: Option<Skip>,
-    /// Whether an image pass reads the light's view (`reads: light`): group 0 binding 1, `LightSpace`.
+    /// Whether an image pass reads the light's view (`reads: light`), a `LightSpace`: group 0 binding 1, or 2 of a compute
+    /// pass.
     pub reads_light: bool,
+    /// `repeat: doubling N`: an image or compute pass that is run for the distances 1, N, N^2, ... (texels) below the
+    /// side, each time over what it made before. Group 0 binding 3 is the distance, a `u32`.
+    pub repeat: Option<u32>,
+    /// `otherwise: PASS`: what takes its place, with the same arguments, where an adapter cannot run it.
+    pub otherwise: Option<String>,
     /// All other header lines joined by spaces.
     pub description: String,
     /// The file.
     pub source: Arc<SourceText>,
 }
 
-const KEYS: &[&str] = &["kind", "use", "target", "clear", "axes", "skip", "reads", "option", "label"];
-
 impl PassFile {
-    /// Reads the header of a pass; the file's stem is its name.
-    ///
-    /// # Errors
-    /// Everything that is wrong with the header.
-    pub fn parse(source: &Arc<SourceText>) -> Result<Self, Vec<Diagnostic>> {
-        let options = all_options(source);
-        let defaults: Vec<(String, String)> = options.iter().map(|o| (o.name.clone(), o.default.clone())).collect();
-        Self::read(source, &options, &defaults)
-    }
-
-    /// The pass for these choices: conditions may stand around header lines, too, though not around options. Choices that
-    /// the pass does not know are passed over; [`PassFile::text`] complains of them.
-    ///
-    /// # Errors
-    /// Everything that is wrong with the header for these choices.
-    pub fn chosen(&self, choices: &Choices) -> Result<Self, Vec<Diagnostic>> {
-        let made = |o: &OptionSpec| {
-            let choice = choices.get(&o.name).filter(|c| o.choices.contains(c));
-            (o.name.clone(), choice.unwrap_or(&o.default).clone())
-        };
-        let made: Vec<(String, String)> = self.options.iter().map(made).collect();
-        Self::read(&self.source, &self.options, &made)
-    }
-
-    fn read(
-        source: &Arc<SourceText>,
-        options: &[OptionSpec],
-        choices: &[(String, String)],
-    ) -> Result<Self, Vec<Diagnostic>> {
-        let mut report = Report::new(source);
-        let kept = file::kept_lines(&source.text, options, choices);
-        let mut pass = Self {
-            name: stem(&source.name).to_owned(),
-            kind: PassKind::Image,
-            uses: Vec::new(),
-            options: Vec::new(),
-            targets: Vec::new(),
-            clear: Vec::new(),
-            axes: Vec::new(),
-            skip: None,
-            reads_light: false,
-            description: String::new(),
-            source: source.clone(),
-        };
-        let mut seen: Vec<&str> = Vec::new();
-        for line in header_lines(&source.text).filter(|l| kept.contains(&l.at)).map(Piece::trim) {
-            if line.text.is_empty() {
-                continue;
-            }
-            let line = line.slice(3..line.text.len()).trim();
-            let Some((key, value)) = line.split_once(":") else {
-                pass.describe(line);
-                continue;
-            };
-            let words = key.words();
-            let known = match words[..] {
-                [word] => word.text != "option" && KEYS.contains(&word.text),
-                [word, _] => word.text == "option",
-                _ => false,
-            };
-            if known {
-                if seen.contains(&key.text) {
-                    report
-                        .error("ST0104", key.range(), format!("`{}` is said twice", key.text))
-                        .help("remove one of them");
-                } else {
-                    seen.push(key.text);
-                    pass.line(&mut report, &words, value);
-                }
-            } else if words.len() == 1 && key.text.bytes().all(|b| b.is_ascii_lowercase() || b == b'_') {
-                report
-                    .error("ST0101", key.range(), format!("`{}` is not a key of pass headers", key.text))
-                    .suggest(did_you_mean(key.text, KEYS.iter().copied()));
-            } else {
-                pass.describe(line);
-            }
-        }
-        if !seen.contains(&"kind") {
-            report
-                .error("ST0138", 0..0, "the header says no kind")
-                .help("add a line `//! kind: geometry`, `//! kind: image` or `//! kind: mip`");
-        }
-        pass.judge_skip(&mut report);
-        if report.found.is_empty() { Ok(pass) } else { Err(report.found) }
-    }
-
-    fn describe(&mut self, line: Piece<'_>) {
-        if !self.description.is_empty() && !line.text.is_empty() {
-            self.description.push(' ');
-        }
-        self.description.push_str(line.text);
-    }
-
-    fn line(&mut self, report: &mut Report, key: &[Piece<'_>], value: Piece<'_>) {
-        let alternatives = |report: &mut Report| -> Vec<String> {
-            let parts = value.split('|');
-            for part in parts.iter().filter(|p| p.text.is_empty()) {
-                report.error("ST0138", part.range(), "an empty alternative").help("remove a `|`");
-            }
-            parts.iter().map(|p| p.text.to_owned()).collect()
-        };
-        match key[0].text {
-            "kind" => {
-                self.kind = match value.text {
-                    "geometry" => PassKind::Geometry,
-                    "image" => PassKind::Image,
-                    "mip" => PassKind::Mip,
-                    other => {
-                        report
-                            .error("ST0138", value.range(), format!("`{other}` is not a kind of pass"))
-                            .help("kinds are geometry, image, mip");
-                        return;
-                    }
-                }
-            }
-            "use" => self.uses = settings::names(report, value),
-            "option" => self.options.extend(settings::option(report, key[1], value)),
-            "target" => self.targets = alternatives(report),
-            "reads" => {
-                self.reads_light = value.text == "light";
-                if !self.reads_light {
-                    report
-                        .error("ST0138", value.range(), format!("`{}` is nothing that a pass can read", value.text))
-                        .help("write `reads: light`, or leave the line out");
-                }
-            }
-            "axes" => {
-                self.axes = alternatives(report);
-                if self.axes.iter().any(|a| a != "x" && a != "y") {
-                    report
-                        .error("ST0138", value.range(), "axes are x and y")
-                        .help("write `axes: x | y`, or leave the line out");
-                }
-            }
-            "clear" => {
-                let inner = value.text.trim_start_matches('(').trim_end_matches(')');
-                let numbers = inner.split([',', ' ']).filter(|n| !n.is_empty()).map(|n| n.parse::<f64>());
-                match numbers.collect::<Result<Vec<f64>, _>>() {
-                    Ok(n) if (1..=4).contains(&n.len()) && n.iter().all(|x| x.is_finite()) => self.clear = n,
-                    _ => {
-                        report
-                            .error("ST0138", value.range(), "`clear` takes one to four numbers")
-                            .help("write for example `clear: (1, 0, 0, 0)`");
-                    }
-                }
-            }
-            "skip" => match value.split_once("==") {
-                Some((option, value)) => {
-                    self.skip = Some(Skip { option: option.text.to_owned(), value: value.text.to_owned() });
-                }
-                None => {
-                    report
-                        .error("ST0138", value.range(), "`skip` reads `OPTION == CHOICE`")
-                        .help("write for example `skip: width == 1`");
-                }
-            },
-            _ => {}
-        }
-    }
-
-    fn judge_skip(&self, report: &mut Report) {
-        let Some(skip) = &self.skip else { return };
-        match self.options.iter().find(|o| o.name == skip.option) {
-            Some(option) if option.choices.contains(&skip.value) => {}
-            Some(option) => {
-                report
-                    .error("ST0138", 0..0, format!("`{}` is not a choice of `{}`", skip.value, skip.option))
-                    .help(format!("choices are {}", option.choices.join(", ")));
-            }
-            None => {
-                report
-                    .error("ST0107", 0..0, format!("`skip` names no option: `{}`", skip.option))
-                    .among(&skip.option, self.options.iter().map(|o| o.name.as_str()));
-            }
-        }
-    }
-
     /// Whether the pass is left out for these choices.
     pub fn is_skipped(&self, choices: &Choices) -> bool {
         self.skip.as_ref().is_some_and(|skip| {
@@ -280,9 +120,11 @@ impl PassFile {
         let own = file::items_of(&applied);
         let entries: Vec<&str> = applied.declarations.iter().filter(|d| d.entry).map(|d| d.name.as_str()).collect();
         if entries.is_empty() {
-            report
-                .error("ST0121", 0..0, format!("the pass `{}` has no entry point", self.name))
-                .help("mark one function `@vertex` and one `@fragment`");
+            let help = match self.kind {
+                PassKind::Compute => "mark one function `@compute @workgroup_size(8, 8)` and call it `cs_main`",
+                _ => "mark one function `@vertex` and one `@fragment`",
+            };
+            report.error("ST0121", 0..0, format!("the pass `{}` has no entry point", self.name)).help(help);
             return Err(report.found);
         }
         let others = variant.map_or(Vec::new(), |name| catalog.variant(name));
@@ -294,30 +136,6 @@ impl PassFile {
             items.iter().filter(|i| kept.contains(i.name.as_str())).map(|i| i.text.as_str()).collect();
         Ok(texts.join("\n\n") + "\n")
     }
-}
-
-/// Lines before the first one of code: headers, conditions around them, and empty ones.
-fn header_lines(text: &str) -> impl Iterator<Item = Piece<'_>> {
-    let is_header = |line: &Piece<'_>| {
-        let line = line.trim().text;
-        line.is_empty() || line.starts_with("//!") || line.starts_with("//#")
-    };
-    lines(text).take_while(is_header)
-}
-
-/// Options of a header, whatever the conditions around them; what is wrong with them is told when the header is read.
-fn all_options(source: &Arc<SourceText>) -> Vec<OptionSpec> {
-    let mut unheard = Report::new(source);
-    let mut found: Vec<OptionSpec> = Vec::new();
-    for line in header_lines(&source.text).map(Piece::trim).filter(|l| l.text.starts_with("//!")) {
-        if let Some((key, value)) = line.slice(3..line.text.len()).trim().split_once(":")
-            && let [word, name] = key.words()[..]
-            && word.text == "option"
-        {
-            found.extend(settings::option(&mut unheard, name, value));
-        }
-    }
-    found
 }
 
 /// Names of the items that `roots` mention, directly or through others, `roots` included.
@@ -376,6 +194,19 @@ fn unused() -> f32 { return 1.0; }
     }
 
     #[test]
+    fn compute_passes_say_what_they_store_and_how_often_they_run() {
+        let text = "//! kind: compute\n//! target: rg32uint\n//! repeat: doubling 4\n//! otherwise: drawn\n";
+        let p = pass(text).unwrap();
+        assert_eq!(
+            (p.kind, p.kind.name(), p.repeat, p.otherwise.as_deref()),
+            (PassKind::Compute, "compute", Some(4), Some("drawn"))
+        );
+        assert_eq!(pass("//! kind: image\n//! repeat: doubling\n").unwrap().repeat, Some(2));
+        let missing = p.text(&Choices::new(), &Catalog::default()).unwrap_err();
+        assert!(missing[0].help.as_ref().is_some_and(|h| h.contains("cs_main")), "{missing:?}");
+    }
+
+    #[test]
     fn only_what_is_reached_is_written() {
         let mut catalog = Catalog::default();
         let library = "fn corner(i: u32) -> vec4f { return vec4f(f32(i)); }\nfn other() -> f32 { return 1.0; }";
@@ -419,6 +250,15 @@ fn unused() -> f32 { return 1.0; }
         let codes: Vec<&str> = found.iter().map(|f| &f[..6]).collect();
         assert_eq!(codes, ["ST0138", "ST0101", "ST0138", "ST0138", "ST0104", "ST0107"], "{found:?}");
         assert!(pass("").unwrap_err()[0].starts_with("ST0138"));
+        let wrong = |text: &str| pass(text).unwrap_err().concat();
+        assert!(wrong("//! kind: compute\n").contains("which formats it stores"));
+        assert!(wrong("//! kind: compute\n//! target: rg32float\n//! clear: 1\n").contains("not cleared"));
+        assert!(wrong("//! kind: compute\n//! target: rg16float\n").contains("`rg16float`"));
+        assert!(wrong("//! kind: geometry\n//! repeat: doubling\n").contains("a geometry pass cannot be repeated"));
+        assert!(wrong("//! kind: mip\n//! otherwise: blur\n").contains("place of a mip pass"));
+        for word in ["tripling", "doubling 1", "doubling 65", "doubling x", "doubling 2 2", ""] {
+            assert!(wrong(&format!("//! kind: image\n//! repeat: {word}\n")).contains("`repeat` reads"), "{word}");
+        }
         let p = pass(BLUR).unwrap();
         assert_eq!(p.text(&Choices::new(), &Catalog::default()).unwrap_err()[0].code, "ST0128");
         let bad = Choices::from([("width".into(), "4".into()), ("wdth".into(), "3".into())]);

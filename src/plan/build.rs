@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use super::{Light, Map, Pass, Plan, Space};
+use super::{Light, Map, Pass, PassKind, Plan, Space};
 use crate::diagnostic::{Diagnostic, Place, Span, did_you_mean};
 use crate::node::{Catalog, PassFile};
 use crate::program::{MapDemand, Program};
@@ -85,8 +85,8 @@ fn expand(
         chosen.extend(axis.map(|a| ("axis".to_owned(), a.clone())));
         let light = &program.nodes[demand.light].definition;
         let variant = light.header.space.as_ref().and_then(|s| s.variant(light));
-        let wgsl = match file.text_with(&chosen, catalog, variant) {
-            Ok(text) => text,
+        match chosen_pass(file, chosen, variant, catalog) {
+            Ok(pass) => passes.push(pass),
             Err(found) => {
                 // A choice that the pass does not have was made by the node; anything else is wrong in the pass itself.
                 let told = found.into_iter().map(|mut d| {
@@ -99,26 +99,71 @@ fn expand(
                 });
                 // Each axis finds the same.
                 out.extend(told.filter(|d| !out.contains(d)).collect::<Vec<_>>());
-                continue;
             }
-        };
-        // What is not said takes the pass's default, so that equal passes are equal however they were asked for.
-        for option in &file.options {
-            chosen.entry(option.name.clone()).or_insert_with(|| option.default.clone());
         }
-        let targets = match chosen.get("format").map(String::as_str) {
-            Some(format) if file.targets.iter().any(|t| t == format) => vec![format.to_owned()],
-            // `auto`, or a choice of storage that the pass answers with target lines of its own.
-            _ => file.targets.clone(),
-        };
-        passes.push(Pass {
-            name: file.name.clone(),
-            kind: file.kind,
-            choices: chosen,
-            wgsl,
-            targets,
-            clear: file.clear.clone(),
-            reads_light: file.reads_light,
-        });
+    }
+}
+
+/// A pass with its choices made, and what takes its place where an adapter cannot run it.
+fn chosen_pass(
+    file: &PassFile,
+    mut chosen: BTreeMap<String, String>,
+    variant: Option<&str>,
+    catalog: &Catalog,
+) -> Result<Pass, Vec<Diagnostic>> {
+    let wgsl = file.text_with(&chosen, catalog, variant)?;
+    let otherwise = match &file.otherwise {
+        Some(name) => Some(Box::new(replacement(file, name, &chosen, variant, catalog)?)),
+        None => None,
+    };
+    // What is not said takes the pass's default, so that equal passes are equal however they were asked for.
+    for option in &file.options {
+        chosen.entry(option.name.clone()).or_insert_with(|| option.default.clone());
+    }
+    let targets = match chosen.get("format").map(String::as_str) {
+        Some(format) if file.targets.iter().any(|t| t == format) => vec![format.to_owned()],
+        // `auto`, or a choice of storage that the pass answers with target lines of its own.
+        _ => file.targets.clone(),
+    };
+    Ok(Pass {
+        name: file.name.clone(),
+        kind: file.kind,
+        choices: chosen,
+        wgsl,
+        targets,
+        clear: file.clear.clone(),
+        reads_light: file.reads_light,
+        repeat: file.repeat,
+        otherwise,
+    })
+}
+
+/// The pass that `file` says takes its place. It is one that every adapter runs, so it has no replacement itself.
+fn replacement(
+    file: &PassFile,
+    name: &str,
+    chosen: &BTreeMap<String, String>,
+    variant: Option<&str>,
+    catalog: &Catalog,
+) -> Result<Pass, Vec<Diagnostic>> {
+    let wrong = |message: String, help: String| {
+        vec![Diagnostic::error("ST0138", message, Place::file(&file.source.name)).help(help)]
+    };
+    match catalog.pass(name) {
+        Some(Ok(other)) if other.kind == PassKind::Image => {
+            chosen_pass(&other.chosen(chosen)?, chosen.clone(), variant, catalog)
+        }
+        Some(Ok(other)) => Err(wrong(
+            format!("the {} pass `{name}` cannot take the place of `{}`", other.kind.name(), file.name),
+            "name an image pass, which every adapter runs".into(),
+        )),
+        Some(Err(found)) => Err(found),
+        None => Err(wrong(
+            format!("`{name}` is to take the place of the pass `{}`, and there is none", file.name),
+            match did_you_mean(name, catalog.pass_names()) {
+                Some(near) => format!("did you mean `{near}`?"),
+                None => format!("the passes are {}", catalog.pass_names().collect::<Vec<_>>().join(", ")),
+            },
+        )),
     }
 }

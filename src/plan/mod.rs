@@ -71,14 +71,19 @@ pub struct Pass {
     pub kind: PassKind,
     /// Options, all of them.
     pub choices: BTreeMap<String, String>,
-    /// Complete WGSL with entry points `vs_main` and `fs_main`.
+    /// Complete WGSL with entry points `vs_main` and `fs_main`, or `cs_main` of a compute pass.
     pub wgsl: String,
     /// Target formats, best first (`rg32float`, ...; `depth32float` alone means a depth target and no colour).
     pub targets: Vec<String>,
     /// Clear value per channel.
     pub clear: Vec<f64>,
-    /// Whether an image pass reads the light's view: group 0 binding 1, `LightSpace`.
+    /// Whether the light's view is read, a `LightSpace`: group 0 binding 1 of an image pass, 2 of a compute pass.
     pub reads_light: bool,
+    /// Factor between the distances (texels, from 1 on, below the side) that the pass is run for, each time over what it
+    /// made before; the distance is group 0 binding 3, a `u32`. None: it runs once.
+    pub repeat: Option<u32>,
+    /// What takes its place where the adapter cannot run it.
+    pub otherwise: Option<Box<Pass>>,
 }
 
 impl Pass {
@@ -87,5 +92,14 @@ impl Pass {
     /// geometry pass), `cull` (`front` or `back` sides of triangles left out), `format`.
     pub fn number(&self, option: &str) -> Option<u32> {
         self.choices.get(option)?.parse().ok()
+    }
+
+    /// The distances that the pass is run for on an image of this side; none for a pass that runs once.
+    pub fn distances(&self, side: u32) -> Vec<u32> {
+        let Some(factor) = self.repeat else { return Vec::new() };
+        let next = |distance: &u32| distance.checked_mul(factor.max(2));
+        let all: Vec<u32> = std::iter::successors(Some(1), next).take_while(|d| *d < side).collect();
+        // A single texel is its own sum; the pass is run all the same, as it may change the format.
+        if all.is_empty() { vec![1] } else { all }
     }
 }

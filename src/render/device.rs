@@ -21,6 +21,23 @@ pub(super) struct Device {
     trouble: Arc<Trouble>,
 }
 
+/// What the texels of a texture are, and what they are for besides being rendered and read.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Texels {
+    pub(super) format: TextureFormat,
+    pub(super) samples: u32,
+    pub(super) levels: u32,
+    /// Compute shaders write them.
+    pub(super) stored: bool,
+}
+
+impl Texels {
+    /// One sample, one level, written by drawing.
+    pub(super) fn plain(format: TextureFormat) -> Self {
+        Self { format, samples: 1, levels: 1, stored: false }
+    }
+}
+
 /// What the device reports by itself, outside of any call.
 #[derive(Default)]
 struct Trouble {
@@ -64,7 +81,10 @@ impl Device {
 
     /// What the device can do with a format.
     pub(super) fn abilities(&self, format: TextureFormat) -> Abilities {
-        format::abilities(&self.adapter, self.features, format)
+        let known = format::abilities(&self.adapter, self.features, format);
+        // Some OpenGL devices have storage textures and no compute shaders.
+        let computes = self.downlevel.contains(wgpu::DownlevelFlags::COMPUTE_SHADERS);
+        Abilities { storable: known.storable && computes, ..known }
     }
 
     /// Does `work`, and turns whatever the device says about it into an error that names `what`.
@@ -171,32 +191,22 @@ impl Device {
         samples: u32,
         levels: u32,
     ) -> wgpu::Texture {
-        self.texture(what, wgpu::Extent3d { width, height, depth_or_array_layers: 1 }, format, samples, levels)
+        let texels = Texels { format, samples, levels, stored: false };
+        self.texture(what, wgpu::Extent3d { width, height, depth_or_array_layers: 1 }, texels)
     }
 
     /// A square one with layers.
-    pub(super) fn layers(
-        &self,
-        what: &str,
-        side: u32,
-        format: TextureFormat,
-        samples: u32,
-        levels: u32,
-        layers: u32,
-    ) -> wgpu::Texture {
+    pub(super) fn layers(&self, what: &str, side: u32, layers: u32, texels: Texels) -> wgpu::Texture {
         let size = wgpu::Extent3d { width: side, height: side, depth_or_array_layers: layers };
-        self.texture(what, size, format, samples, levels)
+        self.texture(what, size, texels)
     }
 
-    fn texture(
-        &self,
-        what: &str,
-        size: wgpu::Extent3d,
-        format: TextureFormat,
-        samples: u32,
-        levels: u32,
-    ) -> wgpu::Texture {
+    fn texture(&self, what: &str, size: wgpu::Extent3d, texels: Texels) -> wgpu::Texture {
+        let Texels { format, samples, levels, stored } = texels;
         let mut usage = wgpu::TextureUsages::RENDER_ATTACHMENT;
+        if stored {
+            usage |= wgpu::TextureUsages::STORAGE_BINDING;
+        }
         if samples == 1 {
             usage |= wgpu::TextureUsages::TEXTURE_BINDING | wgpu::TextureUsages::COPY_SRC;
             // Depth is not copied between textures, and not every backend could.

@@ -12,6 +12,7 @@ pub(super) const NAMES: &[(&str, TextureFormat)] = &[
     ("rg16float", TextureFormat::Rg16Float),
     ("rg16unorm", TextureFormat::Rg16Unorm),
     ("rg32float", TextureFormat::Rg32Float),
+    ("rg32uint", TextureFormat::Rg32Uint),
     ("rgba8unorm", TextureFormat::Rgba8Unorm),
     ("rgba16float", TextureFormat::Rgba16Float),
     ("rgba16unorm", TextureFormat::Rgba16Unorm),
@@ -27,6 +28,8 @@ pub struct Abilities {
     pub filterable: bool,
     /// It can have four samples per pixel that are resolved to one.
     pub multisampled: bool,
+    /// Compute shaders can write it.
+    pub storable: bool,
 }
 
 /// The format with this name.
@@ -57,20 +60,44 @@ pub(super) fn abilities(adapter: &wgpu::Adapter, features: wgpu::Features, forma
         multisampled: flags.contains(
             wgpu::TextureFormatFeatureFlags::MULTISAMPLE_X4 | wgpu::TextureFormatFeatureFlags::MULTISAMPLE_RESOLVE,
         ),
+        storable: known.allowed_usages.contains(wgpu::TextureUsages::STORAGE_BINDING)
+            && flags.contains(wgpu::TextureFormatFeatureFlags::STORAGE_WRITE_ONLY),
     }
 }
 
-/// The first of `names` that can be rendered (and interpolated, if `filtered`), with its position in the list.
+/// What a map needs its format for, besides being rendered and read.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(super) struct Needs {
+    /// Samplers interpolate it.
+    pub(super) filtered: bool,
+    /// Compute shaders write it.
+    pub(super) stored: bool,
+}
+
+impl Needs {
+    /// What a device must be able to do, as a verb.
+    pub(super) fn verb(self) -> &'static str {
+        match (self.filtered, self.stored) {
+            (false, false) => "render",
+            (true, false) => "render and filter",
+            (false, true) => "render and store",
+            (true, true) => "render, store and filter",
+        }
+    }
+}
+
+/// The first of `names` that can be rendered and does what is needed, with its position in the list.
 pub(super) fn choose(
     names: &[&str],
-    filtered: bool,
+    needs: Needs,
     abilities: &dyn Fn(TextureFormat) -> Abilities,
 ) -> Option<(usize, TextureFormat)> {
     names.iter().enumerate().find_map(|(i, name)| {
         let format = from_name(name)?;
         let able = abilities(format);
         // Depth is compared, not interpolated.
-        let fits = able.renderable && (!filtered || able.filterable || format.is_depth_stencil_format());
+        let filters = !needs.filtered || able.filterable || format.is_depth_stencil_format();
+        let fits = able.renderable && filters && (!needs.stored || able.storable);
         fits.then_some((i, format))
     })
 }
@@ -79,7 +106,10 @@ pub(super) fn choose(
 pub(super) fn texel_bytes(format: TextureFormat) -> u32 {
     match format {
         TextureFormat::R16Float | TextureFormat::R16Unorm => 2,
-        TextureFormat::Rgba16Float | TextureFormat::Rgba16Unorm | TextureFormat::Rg32Float => 8,
+        TextureFormat::Rgba16Float
+        | TextureFormat::Rgba16Unorm
+        | TextureFormat::Rg32Float
+        | TextureFormat::Rg32Uint => 8,
         TextureFormat::Rgba32Float => 16,
         _ => 4,
     }
@@ -88,7 +118,7 @@ pub(super) fn texel_bytes(format: TextureFormat) -> u32 {
 /// Channels of a format in [`NAMES`].
 pub(super) fn channels(format: TextureFormat) -> usize {
     match format {
-        TextureFormat::Rg16Float | TextureFormat::Rg16Unorm | TextureFormat::Rg32Float => 2,
+        TextureFormat::Rg16Float | TextureFormat::Rg16Unorm | TextureFormat::Rg32Float | TextureFormat::Rg32Uint => 2,
         TextureFormat::Rgba8Unorm
         | TextureFormat::Rgba16Float
         | TextureFormat::Rgba16Unorm
@@ -97,7 +127,21 @@ pub(super) fn channels(format: TextureFormat) -> usize {
     }
 }
 
-/// The channels of one texel; missing ones are 0, 0 and 1.
+/// Whether a format holds whole numbers.
+pub(super) fn is_integer(format: TextureFormat) -> bool {
+    format == TextureFormat::Rg32Uint
+}
+
+/// How shaders read a format without interpolation.
+pub(super) fn sample_type(format: TextureFormat) -> wgpu::TextureSampleType {
+    if is_integer(format) {
+        wgpu::TextureSampleType::Uint
+    } else {
+        wgpu::TextureSampleType::Float { filterable: false }
+    }
+}
+
+/// The channels of one texel; missing ones are 0, 0 and 1. Whole numbers of 32 bits are rounded to what a float holds.
 pub(super) fn decode(format: TextureFormat, texel: &[u8]) -> [f32; 4] {
     let mut color = [0.0, 0.0, 0.0, 1.0];
     let channels = channels(format);
@@ -107,6 +151,8 @@ pub(super) fn decode(format: TextureFormat, texel: &[u8]) -> [f32; 4] {
             (TextureFormat::R16Float | TextureFormat::Rg16Float | TextureFormat::Rgba16Float, &[a, b]) => {
                 f16::from_le_bytes([a, b]).to_f32()
             }
+            #[allow(clippy::cast_precision_loss, reason = "said above")]
+            (TextureFormat::Rg32Uint, &[a, b, c, d]) => u32::from_le_bytes([a, b, c, d]) as f32,
             (_, &[a]) => f32::from(a) / 255.0,
             (_, &[a, b]) => f32::from(u16::from_le_bytes([a, b])) / 65535.0,
             (_, &[a, b, c, d]) => f32::from_le_bytes([a, b, c, d]),
@@ -116,37 +162,59 @@ pub(super) fn decode(format: TextureFormat, texel: &[u8]) -> [f32; 4] {
     color
 }
 
+/// The channels of many texels.
+pub(super) fn decode_all(format: TextureFormat, bytes: &[u8]) -> Vec<[f32; 4]> {
+    bytes.chunks_exact(texel_bytes(format) as usize).map(|texel| decode(format, texel)).collect()
+}
+
+/// The whole numbers of many texels, missing ones 0; nothing for formats that hold others.
+pub(super) fn integers(format: TextureFormat, bytes: &[u8]) -> Vec<[u32; 4]> {
+    if !is_integer(format) {
+        return Vec::new();
+    }
+    let whole = |texel: &[u8]| {
+        let mut all = [0; 4];
+        for (value, part) in all.iter_mut().zip(texel.chunks_exact(4)) {
+            *value = part.try_into().map_or(0, u32::from_le_bytes);
+        }
+        all
+    };
+    bytes.chunks_exact(texel_bytes(format) as usize).map(whole).collect()
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
 
     const NAMES: [&str; 3] = ["rg32float", "rg16unorm", "rg16float"];
 
-    const ALL: Abilities = Abilities { renderable: true, filterable: true, multisampled: true };
+    const ALL: Abilities = Abilities { renderable: true, filterable: true, multisampled: true, storable: true };
+    const PLAIN: Needs = Needs { filtered: false, stored: false };
+    const FILTERED: Needs = Needs { filtered: true, stored: false };
 
     #[test]
     fn the_first_format_wins_where_everything_works() {
-        assert_eq!(choose(&NAMES, true, &|_| ALL), Some((0, TextureFormat::Rg32Float)));
+        assert_eq!(choose(&NAMES, FILTERED, &|_| ALL), Some((0, TextureFormat::Rg32Float)));
     }
 
     #[test]
     fn a_format_that_cannot_be_interpolated_is_passed_over_only_if_it_has_to_be() {
         let no_float_filter = |f| Abilities { filterable: f != TextureFormat::Rg32Float, ..ALL };
-        assert_eq!(choose(&NAMES, true, &no_float_filter), Some((1, TextureFormat::Rg16Unorm)));
-        assert_eq!(choose(&NAMES, false, &no_float_filter), Some((0, TextureFormat::Rg32Float)));
+        assert_eq!(choose(&NAMES, FILTERED, &no_float_filter), Some((1, TextureFormat::Rg16Unorm)));
+        assert_eq!(choose(&NAMES, PLAIN, &no_float_filter), Some((0, TextureFormat::Rg32Float)));
     }
 
     #[test]
     fn nothing_is_chosen_where_nothing_can_be_rendered_or_the_name_is_unknown() {
-        assert_eq!(choose(&NAMES, false, &|_| Abilities { renderable: false, ..ALL }), None);
-        assert_eq!(choose(&["rg12float"], false, &|_| ALL), None);
+        assert_eq!(choose(&NAMES, PLAIN, &|_| Abilities { renderable: false, ..ALL }), None);
+        assert_eq!(choose(&["rg12float"], PLAIN, &|_| ALL), None);
     }
 
     #[test]
     fn depth_needs_no_interpolation() {
         let depth = ["depth32float"];
         let able = |_| Abilities { filterable: false, ..ALL };
-        assert_eq!(choose(&depth, true, &able), Some((0, TextureFormat::Depth32Float)));
+        assert_eq!(choose(&depth, FILTERED, &able), Some((0, TextureFormat::Depth32Float)));
     }
 
     #[test]
@@ -156,6 +224,10 @@ mod tests {
         let half: Vec<u8> = [2.0, 0.5].iter().flat_map(|x| f16::from_f32(*x).to_le_bytes()).collect();
         assert_eq!(decode(TextureFormat::Rg16Float, &half), [2.0, 0.5, 0.0, 1.0]);
         assert_eq!(decode(TextureFormat::Rgba8Unorm, &[255, 0, 51, 0]), [1.0, 0.0, 0.2, 0.0]);
+        let whole: Vec<u8> = [7_u32, u32::MAX].iter().flat_map(|x| x.to_le_bytes()).collect();
+        assert_eq!(decode(TextureFormat::Rg32Uint, &whole), [7.0, 4_294_967_296.0, 0.0, 1.0]);
+        assert_eq!(integers(TextureFormat::Rg32Uint, &whole), [[7, u32::MAX, 0, 0]]);
+        assert!(integers(TextureFormat::Rg32Float, &whole).is_empty());
     }
 
     #[test]

@@ -5,7 +5,7 @@ use wgpu::TextureFormat;
 use super::adapter::{AdapterOptions, AdapterSummary};
 use super::blocks::{check_camera, object_block};
 use super::device::{Device, check};
-use super::format::{Abilities, channels, name_of, texel_bytes};
+use super::format::{self, Abilities, channels, name_of, texel_bytes};
 use super::job::{ColorFormat, Frame, Job, MapPicture};
 use super::main_pass::{Main, Target, background_spec, main_spec};
 use super::map_passes::Work;
@@ -82,14 +82,15 @@ impl Gpu {
             let objects = objects(device, job)?;
             let mut maps = Vec::new();
             for map in &lights.maps {
-                maps.push(map.render(&mut Work {
+                let mut work = Work {
                     device,
                     encoder: &mut encoder,
                     timer: &mut timer,
                     draws: &job.draws,
                     objects: &objects,
                     uploads: &mut uploads,
-                })?);
+                };
+                maps.push(map.render(&mut work, None, map.passes.len())?);
             }
             timer.next("main".into());
             let prepared = Main { job, target, lights: &lights, maps: &maps, objects: &objects };
@@ -126,24 +127,28 @@ impl Gpu {
             let mut timer = Timer::new(device, map.passes.len() * map.views.len());
             let mut encoder = device.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
             let objects = objects(device, job)?;
-            let texture = map.render(&mut Work {
+            let mut work = Work {
                 device,
                 encoder: &mut encoder,
                 timer: &mut timer,
                 draws: &job.draws,
                 objects: &objects,
                 uploads: &mut uploads,
-            })?;
+            };
+            let texture = map.render(&mut work, None, map.passes.len())?;
             device.queue.submit([encoder.finish()]);
             let layers = u32::try_from(map.views.len()).unwrap_or(1);
-            let mut pixels = Vec::new();
+            let (mut pixels, mut integers) = (Vec::new(), Vec::new());
             for layer in 0..layers {
-                pixels.append(&mut read_back::layer(device, &texture, layer)?);
+                let bytes = read_back::bytes(device, &texture, layer)?;
+                pixels.append(&mut format::decode_all(map.format(), &bytes));
+                integers.append(&mut format::integers(map.format(), &bytes));
             }
             add_new(&mut messages, uploads.messages);
             Ok(MapPicture {
                 size: (map.side(), map.side() * u32::try_from(map.views.len()).unwrap_or(1)),
                 pixels,
+                integers,
                 channels: channels(map.format()),
                 format: name_of(map.format()),
                 spaces: map.views.clone(),
@@ -219,7 +224,7 @@ mod tests {
 
     #[test]
     fn targets_give_up_precision_before_samples_and_say_so() {
-        let all = Abilities { renderable: true, filterable: true, multisampled: true };
+        let all = Abilities { renderable: true, filterable: true, multisampled: true, storable: true };
         let float = Target { format: TextureFormat::Rgba32Float, samples: 4 };
         assert_eq!(target(ColorFormat::Float, 4, &|_| all), (float, 0));
         let portable = |f| Abilities { multisampled: f != TextureFormat::Rgba32Float, ..all };

@@ -155,8 +155,11 @@ pub struct PassTiming {
 pub struct MapPicture {
     /// Columns and rows: the views of the light lie one below the other.
     pub size: (u32, u32),
-    /// As stored, rows from the top, each from the left; missing channels are 0, 0 and 1.
+    /// As stored, rows from the top, each from the left; missing channels are 0, 0 and 1. Whole numbers are rounded to what
+    /// floats hold.
     pub pixels: Vec<[f32; 4]>,
+    /// The same exactly, where whole numbers are stored: 32 bits per channel, missing ones 0. Empty for other formats.
+    pub integers: Vec<[u32; 4]>,
     /// Channels that are stored.
     pub channels: usize,
     /// Name of the format that the adapter could make.

@@ -3,10 +3,11 @@
 use wgpu::TextureFormat;
 
 use super::RenderError;
-use super::device::Device;
+use super::compute::Bound;
+use super::device::{Device, Texels};
 use super::job::Draw;
 use super::light_space::LightSpace;
-use super::maps::{MapPlan, Step};
+use super::maps::{MapPlan, Runner};
 use super::pipeline::Pipeline;
 use super::timing::Timer;
 use super::uploads::Uploads;
@@ -54,19 +55,34 @@ impl Place {
     }
 }
 
+/// What the first passes of a map have made already: a layer for each view, and how many passes that are.
+pub(super) struct Base<'a> {
+    pub(super) texture: &'a wgpu::Texture,
+    pub(super) passes: usize,
+}
+
 impl MapPlan<'_> {
-    /// Runs the passes for every view; the result is the finished map, one layer per view.
-    pub(super) fn render(&self, work: &mut Work<'_, '_>) -> Result<wgpu::Texture, RenderError> {
+    /// Runs the first `count` passes for every view, but for those that `base` holds; the result has one layer per view,
+    /// and is the finished map if there are no more passes.
+    pub(super) fn render(
+        &self,
+        work: &mut Work<'_, '_>,
+        base: Option<&Base<'_>>,
+        count: usize,
+    ) -> Result<wgpu::Texture, RenderError> {
         let device = work.device;
         let layers = device.array_layers(u32::try_from(self.views.len()).unwrap_or(1));
-        let make = |step: &Step, layers, levels| device.layers(self.light, step.side, step.format, 1, levels, layers);
-        let last = self.passes.iter().rposition(|p| p.kind != PassKind::Mip).unwrap_or(0);
-        let result = make(&self.steps[last], layers, self.levels());
+        let make = |index: usize, layers, levels| {
+            device.layers(self.light, self.steps[index].side, layers, self.texels(device, index, levels))
+        };
+        let last = self.passes[..count].iter().rposition(|p| p.kind != PassKind::Mip).unwrap_or(0);
+        let levels = if last + 1 < count { self.levels() } else { 1 };
+        let result = make(last, layers, levels);
+        let first = base.map_or(0, |b| b.passes);
         // OpenGL cannot read one layer of an array as a picture: there the passes run beside it.
-        let beside =
-            (!device.reads_layers() && self.passes.len() > 1).then(|| make(&self.steps[last], 1, self.levels()));
+        let beside = (!device.reads_layers() && first.max(1) < count).then(|| make(last, 1, levels));
         let mut scratch: Vec<wgpu::Texture> = Vec::new();
-        let depth = self.depth_beside(device);
+        let depth = (first == 0).then(|| self.depth_beside(device)).flatten();
         for (layer, view) in (0..).zip(&self.views) {
             let uniform = device.buffer("light space", wgpu::BufferUsages::UNIFORM, &view.to_bytes())?;
             let finished = |level| match &beside {
@@ -74,49 +90,67 @@ impl MapPlan<'_> {
                 None => Place { texture: result.clone(), layer, level },
             };
             let mut source: Option<Place> = None;
-            for (index, (pass, step)) in self.passes.iter().zip(&self.steps).enumerate() {
-                let Some(pipeline) = &step.pipeline else { continue };
+            if let Some(base) = base {
+                let made = Place { texture: base.texture.clone(), layer, level: 0 };
+                // The first mip level is where the last picture lies.
+                let beside = (!device.reads_layers()).then(|| make(first - 1, 1, 1));
+                let beside = beside.map(|texture| Place { texture, layer: 0, level: 0 });
+                let to = if first > last { Some(finished(0)) } else { beside };
+                if let Some(to) = &to {
+                    copy(work.encoder, &made, to);
+                }
+                source = to.or(Some(made));
+            }
+            for index in first..count {
+                let (pass, step) = (&self.passes[index], &self.steps[index]);
+                let Some(runner) = &step.runner else { continue };
                 work.timer.next(self.label(index, layer as usize));
                 if pass.kind == PassKind::Mip {
-                    let levels = self.levels();
                     for level in 1..levels {
                         let (from, to) = (finished(level - 1).view(), finished(level).view());
-                        let writes = work.timer.writes(level == 1, level + 1 == levels);
-                        full_screen(device, work.encoder, writes, pipeline, &resources(&from, None), &to);
+                        let run = Run { runner, side: step.side, ends: (level == 1, level + 1 == levels) };
+                        run.encode(work, &from, &to, None, None);
                     }
                     continue;
                 }
-                let target = if index == last {
-                    finished(0)
-                } else {
-                    let taken = source.as_ref().map(|p| &p.texture);
-                    let fits =
-                        |t: &&wgpu::Texture| t.format() == step.format && t.width() == step.side && Some(*t) != taken;
-                    let texture = scratch.iter().find(fits).cloned().unwrap_or_else(|| {
-                        scratch.push(make(step, 1, 1));
-                        scratch[scratch.len() - 1].clone()
-                    });
-                    Place { texture, layer: 0, level: 0 }
-                };
-                match (pass.kind, &source) {
-                    (PassKind::Image, Some(from)) => {
-                        let light = pass.reads_light.then_some(&uniform);
-                        let from = from.view();
-                        let writes = work.timer.writes(true, true);
-                        let resources = resources(&from, light);
-                        full_screen(device, work.encoder, writes, pipeline, &resources, &target.view());
+                let distances = pass.distances(step.side);
+                let runs = distances.len().max(1);
+                for repeat in 0..runs {
+                    let target = if index == last && repeat + 1 == runs {
+                        finished(0)
+                    } else {
+                        let taken = source.as_ref().map(|p| &p.texture);
+                        let fits = |t: &&wgpu::Texture| {
+                            t.format() == step.format && t.width() == step.side && Some(*t) != taken
+                        };
+                        let texture = scratch.iter().find(fits).cloned().unwrap_or_else(|| {
+                            scratch.push(make(index, 1, 1));
+                            scratch[scratch.len() - 1].clone()
+                        });
+                        Place { texture, layer: 0, level: 0 }
+                    };
+                    match (runner, &source) {
+                        (Runner::Draw(pipeline), None) => {
+                            self.draw_casters(work, pipeline, &target.view(), depth.as_ref(), &uniform)?;
+                        }
+                        (_, Some(from)) => {
+                            let usage = wgpu::BufferUsages::UNIFORM;
+                            let distance = distances.get(repeat).map(|d| d.to_le_bytes());
+                            let distance = distance.map(|d| device.buffer("distance", usage, &d)).transpose()?;
+                            let run = Run { runner, side: step.side, ends: (repeat == 0, repeat + 1 == runs) };
+                            let light = pass.reads_light.then_some(&uniform);
+                            run.encode(work, &from.view(), &target.view(), light, distance.as_ref());
+                        }
+                        // The first pass draws: plans where it does not are refused.
+                        (Runner::Compute(_), None) => {}
                     }
-                    _ => self.draw_casters(work, pipeline, &target.view(), depth.as_ref(), &uniform)?,
+                    source = Some(target);
                 }
-                source = Some(target);
             }
             if let Some(texture) = &beside {
-                for level in 0..self.levels() {
-                    copy(
-                        work.encoder,
-                        &Place { texture: texture.clone(), layer: 0, level },
-                        &Place { texture: result.clone(), layer, level },
-                    );
+                for level in 0..levels {
+                    let from = Place { texture: texture.clone(), layer: 0, level };
+                    copy(work.encoder, &from, &Place { texture: result.clone(), layer, level });
                 }
             }
         }
@@ -126,8 +160,11 @@ impl MapPlan<'_> {
     /// The depth buffer of the pass that draws, where it does not draw depth itself.
     fn depth_beside(&self, device: &Device) -> Option<wgpu::Texture> {
         let step = &self.steps[0];
-        (step.format != TextureFormat::Depth32Float)
-            .then(|| device.layers("depth", step.side, TextureFormat::Depth32Float, self.samples(device), 1, 1))
+        (step.format != TextureFormat::Depth32Float).then(|| {
+            let samples = self.samples(device);
+            let texels = Texels { samples, ..Texels::plain(TextureFormat::Depth32Float) };
+            device.layers("depth", step.side, 1, texels)
+        })
     }
 
     fn draw_casters(
@@ -143,7 +180,10 @@ impl MapPlan<'_> {
         let channel = |i: usize| pass.clear.get(i).copied().unwrap_or(0.0);
         let samples = self.samples(device);
         let many = (samples > 1)
-            .then(|| device.layers(self.light, self.steps[0].side, self.steps[0].format, samples, 1, 1))
+            .then(|| {
+                let texels = Texels { samples, ..Texels::plain(self.steps[0].format) };
+                device.layers(self.light, self.steps[0].side, 1, texels)
+            })
             .map(|t| t.create_view(&wgpu::TextureViewDescriptor::default()));
         let depth_view =
             beside.map_or_else(|| target.clone(), |t| t.create_view(&wgpu::TextureViewDescriptor::default()));
@@ -207,25 +247,49 @@ fn copy(encoder: &mut wgpu::CommandEncoder, from: &Place, to: &Place) {
     encoder.copy_texture_to_texture(from.info(), to.info(), size);
 }
 
-/// What a full-screen pass reads: its source, and the light if it asks.
-fn resources<'a>(
-    source: &'a wgpu::TextureView,
-    light: Option<&'a wgpu::Buffer>,
-) -> Vec<(u32, u32, wgpu::BindingResource<'a>)> {
-    let mut all = vec![(0, 0, wgpu::BindingResource::TextureView(source))];
-    all.extend(light.map(|l| (0, 1, l.as_entire_binding())));
-    all
+/// One run of a pass over a picture.
+struct Run<'a> {
+    runner: &'a Runner,
+    side: u32,
+    /// Whether it begins and whether it ends what is timed.
+    ends: (bool, bool),
+}
+
+impl Run<'_> {
+    fn encode(
+        &self,
+        work: &mut Work<'_, '_>,
+        from: &wgpu::TextureView,
+        to: &wgpu::TextureView,
+        light: Option<&wgpu::Buffer>,
+        distance: Option<&wgpu::Buffer>,
+    ) {
+        let (first, last) = self.ends;
+        match self.runner {
+            Runner::Compute(pipeline) => {
+                let writes = work.timer.compute_writes(first, last);
+                let bound = Bound { source: from, target: to, light, distance };
+                pipeline.run(work.device, work.encoder, writes, bound, self.side);
+            }
+            Runner::Draw(pipeline) => {
+                let mut resources = vec![(0, 0, wgpu::BindingResource::TextureView(from))];
+                resources.extend(light.map(|l| (0, 1, l.as_entire_binding())));
+                resources.extend(distance.map(|d| (0, 3, d.as_entire_binding())));
+                let groups = pipeline.bind(work.device, &resources);
+                let writes = work.timer.writes(first, last);
+                full_screen(work.encoder, writes, pipeline, &groups, to);
+            }
+        }
+    }
 }
 
 fn full_screen(
-    device: &Device,
     encoder: &mut wgpu::CommandEncoder,
     timestamp_writes: Option<wgpu::RenderPassTimestampWrites<'_>>,
     pipeline: &Pipeline,
-    resources: &[(u32, u32, wgpu::BindingResource<'_>)],
+    groups: &[wgpu::BindGroup],
     to: &wgpu::TextureView,
 ) {
-    let groups = pipeline.bind(device, resources);
     let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
         label: Some("image pass"),
         color_attachments: &[Some(wgpu::RenderPassColorAttachment {
@@ -237,6 +301,6 @@ fn full_screen(
         timestamp_writes,
         ..wgpu::RenderPassDescriptor::default()
     });
-    pipeline.set(&mut pass, &groups);
+    pipeline.set(&mut pass, groups);
     pass.draw(0..3, 0..1);
 }

@@ -1,13 +1,15 @@
 //! Maps of lights: which ones a job needs, and in which formats and sizes their passes write.
 
+use std::borrow::Cow;
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use wgpu::TextureFormat;
 
 use super::RenderError;
-use super::device::Device;
-use super::format;
+use super::compute::{ComputePipeline, ComputeSpec};
+use super::device::{Device, Texels};
+use super::format::{self, Needs};
 use super::job::{Draw, Job};
 use super::light_space::{self, Bounds, Eye, LightSpace, light_spaces};
 use super::pipeline::{Culling, DepthUse, Pipeline, Pipelines, Spec, UNIFORM, texture_type};
@@ -17,7 +19,10 @@ use crate::plan::{Pass, PassKind};
 /// A map that is to be made. Two draws share it when light, space and passes are equal.
 pub(super) struct MapPlan<'a> {
     pub(super) light: &'a str,
-    pub(super) passes: &'a [Pass],
+    /// As planned, but for those that the adapter cannot run and that others take the place of.
+    pub(super) passes: Cow<'a, [Pass]>,
+    /// As planned.
+    planned: &'a [Pass],
     /// One per view, which is one per layer.
     pub(super) views: Vec<LightSpace>,
     filtered: bool,
@@ -27,12 +32,19 @@ pub(super) struct MapPlan<'a> {
 
 /// A pass with what it writes.
 pub(super) struct Step {
-    pub(super) pipeline: Option<Arc<Pipeline>>,
+    pub(super) runner: Option<Runner>,
     /// The same for mirrored objects, where sides are told apart.
     pub(super) mirrored: Option<Arc<Pipeline>>,
     pub(super) format: TextureFormat,
     /// Texels on a side.
     pub(super) side: u32,
+}
+
+/// What runs a pass.
+#[derive(Clone)]
+pub(super) enum Runner {
+    Draw(Arc<Pipeline>),
+    Compute(Arc<ComputePipeline>),
 }
 
 /// What the lights of a job need.
@@ -61,14 +73,16 @@ impl<'a> LightPlans<'a> {
             let mut map_of = Vec::new();
             for map in &draw.shader.plan.maps {
                 let views = &spaces[map.light.as_str()];
-                let same = |m: &MapPlan<'_>| m.light == map.light && m.views == *views && m.passes == map.passes;
+                let same = |m: &MapPlan<'_>| m.light == map.light && m.views == *views && m.planned == map.passes;
                 let index = plans.maps.iter().position(same).unwrap_or(plans.maps.len());
                 if index == plans.maps.len() {
-                    check_passes(&map.light, &map.passes)?;
+                    let passes = runnable(device, &map.light, &map.passes, &mut plans.messages)?;
+                    check_passes(&map.light, &passes)?;
                     device.check_texture(&format!("a map of `{}`", map.light), map.size(), map.size())?;
                     plans.maps.push(MapPlan {
                         light: &map.light,
-                        passes: &map.passes,
+                        passes,
+                        planned: &map.passes,
                         views: views.clone(),
                         filtered: false,
                         steps: Vec::new(),
@@ -91,12 +105,18 @@ impl<'a> LightPlans<'a> {
         for map in &mut self.maps {
             for index in 0..map.passes.len() {
                 let what = format!("pass `{}` of light `{}`", map.passes[index].name, map.light);
-                let spec = map.spec(device, index);
-                if spec.culling != Culling::Nothing {
-                    let mirrored = Spec { mirrored: !spec.mirrored, ..spec.clone() };
-                    map.steps[index].mirrored = Some(pipelines.get(device, &what, mirrored)?);
-                }
-                map.steps[index].pipeline = Some(pipelines.get(device, &what, spec)?);
+                let runner = match map.compute_spec(index) {
+                    Some(spec) => Runner::Compute(pipelines.compute(device, &what, spec)?),
+                    None => {
+                        let spec = map.spec(device, index);
+                        if spec.culling != Culling::Nothing {
+                            let mirrored = Spec { mirrored: !spec.mirrored, ..spec.clone() };
+                            map.steps[index].mirrored = Some(pipelines.get(device, &what, mirrored)?);
+                        }
+                        Runner::Draw(pipelines.get(device, &what, spec)?)
+                    }
+                };
+                map.steps[index].runner = Some(runner);
             }
         }
         Ok(())
@@ -128,11 +148,52 @@ fn spaces_of<'a>(
     Ok(spaces)
 }
 
+/// The passes, with others in place of compute passes that the adapter cannot run.
+fn runnable<'a>(
+    device: &Device,
+    light: &str,
+    passes: &'a [Pass],
+    messages: &mut Vec<String>,
+) -> Result<Cow<'a, [Pass]>, RenderError> {
+    let stores = |name: &String| format::from_name(name).is_some_and(|f| device.abilities(f).storable);
+    let able = |p: &Pass| p.kind != PassKind::Compute || p.targets.iter().any(stores);
+    if passes.iter().all(able) {
+        return Ok(Cow::Borrowed(passes));
+    }
+    let mut all = Vec::new();
+    for pass in passes {
+        match &pass.otherwise {
+            _ if able(pass) => all.push(pass.clone()),
+            Some(other) => {
+                let message = format!(
+                    "the pass `{}` of light `{light}` takes the place of `{}`: the adapter has no compute shaders that \
+                     store {}",
+                    other.name,
+                    pass.name,
+                    pass.targets.join(", ")
+                );
+                if !messages.contains(&message) {
+                    messages.push(message);
+                }
+                all.push((**other).clone());
+            }
+            None => {
+                return Err(RenderError::Unsupported(format!(
+                    "the adapter cannot run the pass `{}` of light `{light}`: it has no compute shaders that store {}",
+                    pass.name,
+                    pass.targets.join(", ")
+                )));
+            }
+        }
+    }
+    Ok(Cow::Owned(all))
+}
+
 /// A map is drawn first, then filtered, then reduced.
 fn check_passes(light: &str, passes: &[Pass]) -> Result<(), RenderError> {
     let rank = |p: &Pass| match p.kind {
         PassKind::Geometry => 0,
-        PassKind::Image => 1,
+        PassKind::Image | PassKind::Compute => 1,
         PassKind::Mip => 2,
     };
     let drawn = passes.first().is_some_and(|p| p.kind == PassKind::Geometry);
@@ -142,7 +203,8 @@ fn check_passes(light: &str, passes: &[Pass]) -> Result<(), RenderError> {
         Ok(())
     } else {
         Err(RenderError::Job(format!(
-            "a map of light `{light}` must be one geometry pass, then image passes, then at most one mip pass"
+            "a map of light `{light}` must be one geometry pass, then image and compute passes, then at most one mip \
+             pass"
         )))
     }
 }
@@ -152,7 +214,7 @@ impl MapPlan<'_> {
     /// can write none of those before it begins a new run.
     fn choose_formats(&mut self, device: &Device, messages: &mut Vec<String>) -> Result<(), RenderError> {
         let mut runs: Vec<(Vec<&str>, usize)> = Vec::new();
-        for pass in self.passes {
+        for pass in self.passes.iter() {
             let targets: Vec<&str> = pass.targets.iter().map(String::as_str).collect();
             match runs.last_mut() {
                 Some((_, passes)) if targets.is_empty() => *passes += 1,
@@ -166,17 +228,29 @@ impl MapPlan<'_> {
         let mut side = self.passes[0].number("size").unwrap_or(1024);
         let mut position = 0;
         for (index, (names, passes)) in runs.iter().enumerate() {
-            let filtered = self.filtered && index + 1 == runs.len();
-            let format = self.choose_format(device, names, filtered, messages)?;
+            let run = &self.passes[position..position + passes];
+            let needs = Needs {
+                filtered: self.filtered && index + 1 == runs.len(),
+                stored: run.iter().any(|p| p.kind == PassKind::Compute),
+            };
+            let format = self.choose_format(device, names, needs, messages)?;
             if format == TextureFormat::Depth32Float && self.passes.len() > 1 {
                 return Err(RenderError::Job(format!(
                     "light `{}`: depth targets cannot be filtered by passes",
                     self.light
                 )));
             }
-            for pass in &self.passes[position..position + passes] {
+            for pass in run {
                 side = (side / pass.number("scale").unwrap_or(1).max(1)).max(1);
-                self.steps.push(Step { pipeline: None, mirrored: None, format, side });
+                let before = self.steps.last().map(|s: &Step| (format::is_integer(s.format), s.side));
+                if pass.distances(side).len() > 1 && before != Some((format::is_integer(format), side)) {
+                    return Err(RenderError::Job(format!(
+                        "light `{}`: the pass `{}` is repeated, so it must make what it reads, in size and kind of \
+                         numbers",
+                        self.light, pass.name
+                    )));
+                }
+                self.steps.push(Step { runner: None, mirrored: None, format, side });
             }
             position += passes;
         }
@@ -187,10 +261,10 @@ impl MapPlan<'_> {
         &self,
         device: &Device,
         names: &[&str],
-        filtered: bool,
+        needs: Needs,
         messages: &mut Vec<String>,
     ) -> Result<TextureFormat, RenderError> {
-        let Some((position, format)) = format::choose(names, filtered, &|f| device.abilities(f)) else {
+        let Some((position, format)) = format::choose(names, needs, &|f| device.abilities(f)) else {
             return Err(RenderError::Unsupported(format!(
                 "the adapter cannot make a map of light `{}` in any of its formats ({})",
                 self.light,
@@ -202,7 +276,7 @@ impl MapPlan<'_> {
                 "the map of light `{}` is made in {}: the adapter cannot {} {}",
                 self.light,
                 names[position],
-                if filtered { "render and filter" } else { "render" },
+                needs.verb(),
                 names[..position].join(", ")
             ));
         }
@@ -234,10 +308,10 @@ impl MapPlan<'_> {
             PassKind::Geometry => {
                 (vec![Attribute::Position.location()], vec![(0, 0, UNIFORM), (1, 0, UNIFORM)], DepthUse::Nearest)
             }
-            PassKind::Image | PassKind::Mip => {
-                let source = texture_type(wgpu::TextureSampleType::Float { filterable: false });
-                let mut bindings = vec![(0, 0, source)];
+            PassKind::Image | PassKind::Compute | PassKind::Mip => {
+                let mut bindings = vec![(0, 0, texture_type(self.source_type(index)))];
                 bindings.extend(pass.reads_light.then_some((0, 1, UNIFORM)));
+                bindings.extend(pass.repeat.map(|_| (0, 3, UNIFORM)));
                 (Vec::new(), bindings, DepthUse::None)
             }
         };
@@ -256,6 +330,31 @@ impl MapPlan<'_> {
                 _ => Culling::Nothing,
             },
         }
+    }
+
+    /// What a compute pass is built from; nothing for other passes.
+    fn compute_spec(&self, index: usize) -> Option<ComputeSpec> {
+        let pass = &self.passes[index];
+        (pass.kind == PassKind::Compute).then(|| ComputeSpec {
+            wgsl: pass.wgsl.clone(),
+            source: self.source_type(index),
+            format: self.steps[index].format,
+            reads_light: pass.reads_light,
+            repeated: pass.repeat.is_some(),
+        })
+    }
+
+    /// How a pass reads what the one before made.
+    fn source_type(&self, index: usize) -> wgpu::TextureSampleType {
+        format::sample_type(self.steps[index.saturating_sub(1)].format)
+    }
+
+    /// How the textures of a pass are made.
+    pub(super) fn texels(&self, device: &Device, index: usize, levels: u32) -> Texels {
+        let format = self.steps[index].format;
+        // Whichever textures compute passes go to and fro between.
+        let computes = self.passes.iter().any(|p| p.kind == PassKind::Compute);
+        Texels { levels, stored: computes && device.abilities(format).storable, ..Texels::plain(format) }
     }
 
     /// Number of mip levels of the finished map.

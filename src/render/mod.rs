@@ -5,6 +5,7 @@
 
 mod adapter;
 mod blocks;
+mod compute;
 mod device;
 mod error;
 mod format;

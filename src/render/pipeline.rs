@@ -6,6 +6,7 @@ use std::sync::Arc;
 use wgpu::{BindingType, TextureFormat};
 
 use super::RenderError;
+use super::compute::{self, ComputePipeline, ComputeSpec};
 use super::device::{Device, check};
 use crate::module::Attribute;
 
@@ -62,6 +63,7 @@ pub(super) struct Pipeline {
 #[derive(Default)]
 pub(super) struct Pipelines {
     kept: HashMap<Spec, Arc<Pipeline>>,
+    kept_compute: HashMap<ComputeSpec, Arc<ComputePipeline>>,
     pub(super) built: usize,
 }
 
@@ -80,6 +82,25 @@ impl Pipelines {
             self.kept.clear();
         }
         self.kept.insert(spec, made.clone());
+        Ok(made)
+    }
+
+    /// The same for a compute shader.
+    pub(super) fn compute(
+        &mut self,
+        device: &Device,
+        what: &str,
+        spec: ComputeSpec,
+    ) -> Result<Arc<ComputePipeline>, RenderError> {
+        if let Some(kept) = self.kept_compute.get(&spec) {
+            return Ok(kept.clone());
+        }
+        let made = Arc::new(device.scoped(what, || compute::build(device, what, &spec))?);
+        self.built += 1;
+        if self.kept_compute.len() >= Self::MOST {
+            self.kept_compute.clear();
+        }
+        self.kept_compute.insert(spec, made.clone());
         Ok(made)
     }
 }

@@ -22,11 +22,11 @@ pub(super) fn buffer(device: &Device, source: &wgpu::Buffer, size: u64) -> Resul
 
 /// Mip level 0 of a single-sampled texture, decoded, rows from the top.
 pub(super) fn texture(device: &Device, texture: &wgpu::Texture) -> Result<Vec<[f32; 4]>, RenderError> {
-    layer(device, texture, 0)
+    Ok(format::decode_all(texture.format(), &bytes(device, texture, 0)?))
 }
 
-/// The same of one layer.
-pub(super) fn layer(device: &Device, texture: &wgpu::Texture, layer: u32) -> Result<Vec<[f32; 4]>, RenderError> {
+/// The texels of one layer as they are stored, without gaps.
+pub(super) fn bytes(device: &Device, texture: &wgpu::Texture, layer: u32) -> Result<Vec<u8>, RenderError> {
     let (width, height, format) = (texture.width(), texture.height(), texture.format());
     let texel = format::texel_bytes(format);
     let row = width * texel;
@@ -45,7 +45,7 @@ pub(super) fn layer(device: &Device, texture: &wgpu::Texture, layer: u32) -> Res
     } else {
         u32::try_from(band_bytes / u64::from(pitch)).unwrap_or(height).clamp(1, height)
     };
-    let mut pixels = Vec::with_capacity(width as usize * height as usize);
+    let mut all = Vec::with_capacity(row as usize * height as usize);
     for top in (0..height).step_by(band as usize) {
         let rows = band.min(height - top);
         let staging = staging(device, u64::from(pitch) * u64::from(rows))?;
@@ -70,11 +70,10 @@ pub(super) fn layer(device: &Device, texture: &wgpu::Texture, layer: u32) -> Res
         device.queue.submit([encoder.finish()]);
         let bytes = read(device, &staging)?;
         for line in bytes.chunks_exact(pitch as usize) {
-            let texels = line[..row as usize].chunks_exact(texel as usize);
-            pixels.extend(texels.map(|t| format::decode(format, t)));
+            all.extend_from_slice(&line[..row as usize]);
         }
     }
-    Ok(pixels)
+    Ok(all)
 }
 
 fn staging(device: &Device, size: u64) -> Result<wgpu::Buffer, RenderError> {

@@ -35,14 +35,28 @@ impl Timer {
 
     /// Timestamps for a render pass of the current pass; `first` and `last` tell whether it begins and ends it.
     pub(super) fn writes(&self, first: bool, last: bool) -> Option<wgpu::RenderPassTimestampWrites<'_>> {
-        let index = self.names.len().checked_sub(1).filter(|i| *i < self.room)?;
-        let query = u32::try_from(2 * index).ok()?;
-        let query_set = self.set.as_ref().filter(|_| first || last)?;
+        let (query_set, query) = self.query(first || last)?;
         Some(wgpu::RenderPassTimestampWrites {
             query_set,
             beginning_of_pass_write_index: first.then_some(query),
             end_of_pass_write_index: last.then_some(query + 1),
         })
+    }
+
+    /// The same for a compute pass.
+    pub(super) fn compute_writes(&self, first: bool, last: bool) -> Option<wgpu::ComputePassTimestampWrites<'_>> {
+        let (query_set, query) = self.query(first || last)?;
+        Some(wgpu::ComputePassTimestampWrites {
+            query_set,
+            beginning_of_pass_write_index: first.then_some(query),
+            end_of_pass_write_index: last.then_some(query + 1),
+        })
+    }
+
+    /// The first timestamp of the current pass, if any is wanted and there is room.
+    fn query(&self, wanted: bool) -> Option<(&wgpu::QuerySet, u32)> {
+        let index = self.names.len().checked_sub(1).filter(|i| *i < self.room)?;
+        Some((self.set.as_ref().filter(|_| wanted)?, u32::try_from(2 * index).ok()?))
     }
 
     /// Reads the timestamps of everything submitted before.

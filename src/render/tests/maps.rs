@@ -37,6 +37,8 @@ fn pass(name: &str, kind: PassKind, wgsl: String, targets: &[&str]) -> Pass {
         targets: targets.iter().map(|t| (*t).to_owned()).collect(),
         clear: vec![1.0, 1.0],
         reads_light: false,
+        repeat: None,
+        otherwise: None,
     }
 }
 
@@ -210,6 +212,135 @@ fn image_passes_run_in_order_and_mips_average() {
     }
     let first_choice = map.format == COLOR[0];
     assert_eq!(frame.messages.is_empty(), first_choice, "{} {:?}", map.format, frame.messages);
+}
+
+/// Every texel becomes the sum of those before it in its row, by steps that grow by `factor`; another pass of the same
+/// kind adds up the columns.
+fn sums(kind: PassKind, factor: u32) -> Vec<Pass> {
+    let mut passes = vec![moment_passes().remove(0)];
+    passes[0].targets.truncate(1);
+    let ones =
+        "@fragment fn fs_main(@builtin(position) p: vec4f) -> @location(0) vec2u { return vec2u(1u, u32(p.x)); }";
+    // A source that is not read would be left out of the layout that it is checked against.
+    let ones = format!("{FULL_SCREEN}{ones}\nfn unused() -> vec4f {{ return textureLoad(source, vec2i(0), 0); }}");
+    passes.push(pass("ones", PassKind::Image, ones, &["rg32uint"]));
+    let body = |across: bool| {
+        let (axis, step) = if across { ("x", "vec2u(distance, 0u)") } else { ("y", "vec2u(0u, distance)") };
+        format!(
+            "var sum = textureLoad(source, at, 0);
+    for (var i = 1u; i <= min(at.{axis} / distance, {factor}u - 1u); i++) {{
+        sum += textureLoad(source, at - i * {step}, 0);
+    }}"
+        )
+    };
+    let declared = "@group(0) @binding(3) var<uniform> distance: u32;\n";
+    for across in [true, false] {
+        let drawn = format!(
+            "{}{declared}@fragment fn fs_main(@builtin(position) p: vec4f) -> @location(0) vec4u {{
+    let at = vec2u(p.xy);
+    {}
+    return sum;
+}}",
+            FULL_SCREEN.replace("<f32>", "<u32>"),
+            body(across)
+        );
+        let computed = format!(
+            "@group(0) @binding(0) var source: texture_2d<u32>;
+@group(0) @binding(1) var stored: texture_storage_2d<rg32uint, write>;
+{declared}@compute @workgroup_size(16, 4) fn cs_main(@builtin(global_invocation_id) id: vec3u) {{
+    let at = id.xy;
+    {}
+    textureStore(stored, at, sum);
+}}",
+            body(across)
+        );
+        let repeat = Some(factor);
+        let drawn = Pass { repeat, ..pass("drawn", PassKind::Image, drawn, &["rg32uint"]) };
+        let computed = Pass {
+            repeat,
+            otherwise: Some(Box::new(drawn.clone())),
+            ..pass("computed", PassKind::Compute, computed, &["rg32uint"])
+        };
+        passes.push(if kind == PassKind::Compute { computed } else { drawn });
+    }
+    passes
+}
+
+fn summed(kind: PassKind, factor: u32) -> Compiled {
+    lit(
+        sums(kind, factor),
+        "@group(3) @binding(1) var map: texture_2d_array<u32>;\n@group(3) @binding(2) var map_sampler: sampler;",
+        "return vec4f(vec4u(textureLoad(map, vec2i(map_place(in.world).xy * 64.0), 0, 0)));",
+        "texture_2d_array<u32>",
+        SamplerSettings { linear: false, mip_linear: false, anisotropy: 1, ..TRILINEAR },
+    )
+}
+
+/// Drawn and computed, by twos, threes and fours: the sum over 64 texels each way, exactly; one entry of time for all of
+/// a pass's steps.
+#[test]
+fn repeated_passes_add_up_whole_rows_and_columns() {
+    let Some(mut gpu) = gpu() else { return };
+    let stores = gpu.adapter().formats.iter().any(|(name, able)| name == "rg32uint" && able.storable);
+    let mesh = square();
+    for kind in [PassKind::Image, PassKind::Compute] {
+        for factor in [2, 3, 4, 64] {
+            let shader = summed(kind, factor);
+            let job = job(vec![draw(&mesh, &shader)]);
+            let map = gpu.map(&job, "sun", 0).expect("renders");
+            assert_eq!((map.format, map.channels), ("rg32uint", 2));
+            for (i, texel) in (0_u32..).zip(&map.integers) {
+                let (x, y) = (i % 64, i / 64);
+                assert_eq!(*texel, [(x + 1) * (y + 1), x * (x + 1) / 2 * (y + 1), 0, 0], "{kind:?} {factor}: {x} {y}");
+            }
+            let frame = gpu.render(&job).expect("renders");
+            let name = if kind == PassKind::Compute && stores { "sun: computed" } else { "sun: drawn" };
+            let names: Vec<&str> = frame.timings.iter().map(|t| t.name.as_str()).collect();
+            assert_eq!(names, ["sun: moments", "sun: ones", name, name, "main"]);
+            if gpu.adapter().features.iter().any(|f| f == "timestamp-query") {
+                assert!(frame.timings.iter().all(|t| t.milliseconds.is_some()), "{:?}", frame.timings);
+            }
+            let replaced = frame.messages.iter().any(|m| m.contains("`drawn`") && m.contains("rg32uint"));
+            assert_eq!(replaced, kind == PassKind::Compute && !stores, "{:?}", frame.messages);
+        }
+    }
+    let built = gpu.pipelines_built();
+    let shader = summed(PassKind::Compute, 3);
+    gpu.render(&job(vec![draw(&mesh, &shader)])).expect("renders");
+    assert_eq!(gpu.pipelines_built(), built, "pipelines of compute passes are kept");
+}
+
+#[test]
+fn compute_passes_that_cannot_run_say_why() {
+    let Some(mut gpu) = gpu() else { return };
+    let stores = gpu.adapter().formats.iter().any(|(name, able)| name == "rg32uint" && able.storable);
+    let mesh = square();
+    let mut refused = |change: &dyn Fn(&mut Vec<Pass>)| {
+        let mut shader = summed(PassKind::Compute, 4);
+        change(&mut shader.plan.maps[0].passes);
+        gpu.render(&job(vec![draw(&mesh, &shader)])).expect_err("refused").to_string()
+    };
+    // Nobody stores depth.
+    let no_format = refused(&|passes| {
+        passes[2] = Pass { targets: vec!["depth32float".into()], otherwise: None, ..passes[2].clone() };
+    });
+    assert!(no_format.contains("`computed`") && no_format.contains("depth32float"), "{no_format}");
+    if !stores {
+        return;
+    }
+    let not_its_own = refused(&|passes| {
+        passes.remove(1);
+    });
+    assert!(not_its_own.contains("must make what it reads"), "{not_its_own}");
+    let another_format = refused(&|passes| {
+        for pass in &mut passes[1..] {
+            pass.targets = vec!["rg32uint".into()];
+            pass.wgsl = pass.wgsl.replace("<rg32uint, write>", "<rg32float, write>").replace("sum);", "vec4f(sum));");
+        }
+    });
+    assert!(another_format.contains("rg32float") && another_format.contains("rg32uint"), "{another_format}");
+    let deep = refused(&|passes| passes[2].wgsl = passes[2].wgsl.replace("(16, 4)", "(4, 4, 4)"));
+    assert!(deep.contains("[4, 4, 4]"), "{deep}");
 }
 
 #[test]

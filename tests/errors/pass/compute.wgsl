@@ -1,0 +1,4 @@
+//! kind: compute
+//! target: rg32float | rg16float
+//! clear: 0
+//! repeat: tripling

@@ -1,0 +1,4 @@
+//! kind: geometry
+//! target: depth32float
+//! repeat: doubling
+//! otherwise: blur
