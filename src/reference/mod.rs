@@ -1,6 +1,6 @@
 //! What shadows ought to be, in float64 and without a line in common with the shaders or their hosts: filter kernels,
 //! closed forms of percentage-closer filtering and of variance shadow maps over planes, the exhaustive filter over planar
-//! layers; and for any scene ([`World`], [`Light`]) the exhaustive filter over a map many times finer ([`FineMap`]), and
+//! layers, boxes over summed-area tables; and for any scene ([`World`], [`Light`]) the exhaustive filter over a map many times finer ([`FineMap`]), and
 //! visibility by rays ([`rays`]), for points or whole pictures ([`picture`]).
 //!
 //! Conventions: depth runs from 0 at the light's near plane to 1 at its far plane. Map positions are in texels, with
@@ -18,6 +18,7 @@ pub mod picture;
 mod ray;
 pub mod rays;
 mod source;
+mod summed;
 mod variance;
 mod view;
 mod world;
@@ -33,6 +34,7 @@ pub use metrics::Metrics;
 pub use ray::Ray;
 pub use rays::Estimate;
 pub use source::Source;
+pub use summed::{box_mean, float_mean_bound, table_additions, variance_bound, whole_mean_bound};
 pub use variance::{Mix, chebyshev, reduce_bleeding, spread_cured_by, worst_bleeding};
 pub use view::{Projection, View};
 pub use world::{Body, Point, World};
