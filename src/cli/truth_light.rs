@@ -50,7 +50,7 @@ pub(super) fn filter(woven: &Woven, command: &Render, context: &Context) -> Resu
     if space.is_some_and(|s| s.projection != "cube" && s.views(&light.definition) > 1) {
         let message =
             format!("the maps of the light `{}` are cut into parts, which is not filtered exhaustively", light.id);
-        return Err(no_truth(message, "give the light one part, or use --reference rays", light.place.clone()));
+        return Err(no_truth(message, "give the light one part, or use --reference rays", light.place().clone()));
     }
     if shadows.len() > 1 {
         context.say(&format!("`{}` has {} shadows; the filter is that of `{}`", light.id, shadows.len(), shadow.id));
