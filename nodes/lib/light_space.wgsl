@@ -211,6 +211,13 @@ fn receiver_slope(space: LightSpace, plane: ReceiverPlane) -> vec2f {
     return abs(plane.slope) * select(1.0, plane.distance, space.projection.z > 0.5) * space.depth.z;
 }
 
+/// The same, of no steeper surface than `MAX_RETREAT`: for biases that would otherwise carry a shadow away.
+fn receiver_bounded_slope(space: LightSpace, plane: ReceiverPlane) -> vec2f {
+    let across = select(1.0, plane.distance, space.projection.z > 0.5);
+    let most = MAX_RETREAT * 2.0 / space.projection.xy * across * space.depth.z;
+    return min(receiver_slope(space, plane), most);
+}
+
 /// Depth that rounding may shift a stored texel by, given the slope per texel. Rasterisers place vertices on a grid of
 /// 1/256 texel, so a stored plane may lie off by that part of its slope; float32 adds a few parts in 10^7.
 fn receiver_rounding(slope_per_texel: vec2f) -> f32 {
