@@ -44,6 +44,11 @@ impl Mix {
         1.0 - self.occluders.iter().map(|(_, share)| share).sum::<f64>()
     }
 
+    /// Everything in the filter: depths and their shares, the receiver's last.
+    pub fn distribution(&self) -> Vec<(f64, f64)> {
+        self.occluders.iter().copied().chain(std::iter::once((self.receiver, self.lit()))).collect()
+    }
+
     /// Variance of the occluders alone, in squares of the distance from their mean to the receiver.
     pub fn relative_variance(&self) -> f64 {
         let covered = 1.0 - self.lit();

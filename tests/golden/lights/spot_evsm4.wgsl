@@ -1,0 +1,265 @@
+// Spot light, exponential variance shadow, two warps
+
+struct Frame {
+    world_to_clip: mat4x4f,
+    world_to_view: mat4x4f,
+    camera_position: vec3f,
+    time: f32,
+    camera_forward: vec3f,
+    environment_levels: f32,
+    environment_irradiance: array<vec4f, 9>,
+}
+
+struct Object {
+    object_to_world: mat4x4f,
+    world_to_object: mat4x4f,
+    receives: f32,
+}
+
+struct Parameters {
+    shadow_bleeding_reduction: f32,
+    shadow_minimum_variance: f32,
+    spot_color: vec3f,
+    spot_direction: vec3f,
+    spot_inner_angle: f32,
+    spot_intensity: f32,
+    spot_near: f32,
+    spot_outer_angle: f32,
+    spot_position: vec3f,
+    spot_radius: f32,
+    spot_range: f32,
+}
+
+struct LightSpace {
+    /// Rigid: the light at the origin, looking along +z, +y up.
+    world_to_light: mat4x4f,
+    /// x, y: focal factors, ndc = projection.xy * light.xy / (perspective ? light.z : 1). z: 1 perspective, 0 parallel.
+    /// w: layer of the light's maps that shows this view.
+    projection: vec4f,
+    /// x: near, y: far, z: 1 / (far - near). w: distance from the eye up to which this view is used.
+    depth: vec4f,
+    /// Half size of the shining surface along x and y: metres across the axis (perspective) or tangents of the angles that
+    /// it is seen under (parallel). z: 1 an ellipse, 0 a rectangle. w: texels per metre here over those of the light's
+    /// coarsest view.
+    source: vec4f,
+}
+
+struct MapFootprint {
+    level: f32,
+    taps: f32,
+    step: vec2f,
+}
+
+struct SpotLight {
+    irradiance: vec3f,
+    direction: vec3f,
+    distance: f32,
+}
+
+@group(0) @binding(0) var<uniform> frame: Frame;
+@group(1) @binding(0) var<uniform> object: Object;
+@group(2) @binding(0) var<uniform> parameters: Parameters;
+@group(2) @binding(1) var trilinear_clamp_sampler: sampler;
+@group(3) @binding(0) var<uniform> spot_space: LightSpace;
+@group(3) @binding(1) var spot_map: texture_2d_array<f32>;
+
+fn point_light_ray(point: vec3f, position: vec3f) -> vec4f {
+    let offset = position - point;
+    let distance = length(offset);
+    return vec4f(select(offset / max(distance, 1e-6), vec3f(0.0, 1.0, 0.0), distance < 1e-6), distance);
+}
+
+fn inverse_square(distance: f32) -> f32 {
+    return 1.0 / max(distance * distance, 1e-6);
+}
+
+fn cone_falloff(cosine: f32, inner_angle: f32, outer_angle: f32) -> f32 {
+    let outer = cos(outer_angle);
+    let inner = max(cos(min(inner_angle, outer_angle)), outer + 1e-4);
+    return smoothstep(outer, inner, cosine);
+}
+
+fn light_position(space: LightSpace, point: vec3f) -> vec3f {
+    return (space.world_to_light * vec4f(point, 1.0)).xyz;
+}
+
+fn light_linear_depth(space: LightSpace, distance: f32) -> f32 {
+    return (distance - space.depth.x) * space.depth.z;
+}
+
+fn light_depth_linear(space: LightSpace, position: vec3f) -> f32 {
+    return light_linear_depth(space, position.z);
+}
+
+fn light_ray(space: LightSpace, position: vec3f) -> vec2f {
+    return position.xy / select(1.0, max(position.z, 1e-6), space.projection.z > 0.5);
+}
+
+fn light_map_uv(space: LightSpace, position: vec3f) -> vec2f {
+    return light_ray(space, position) * space.projection.xy * vec2f(0.5, -0.5) + 0.5;
+}
+
+fn light_layer(space: LightSpace) -> i32 {
+    return i32(space.projection.w);
+}
+
+fn light_map_change(space: LightSpace, position: vec3f, change: vec3f) -> vec2f {
+    let moved = (space.world_to_light * vec4f(change, 0.0)).xyz;
+    let perspective = (moved.xy - light_ray(space, position) * moved.z) / max(position.z, 1e-6);
+    let ray = select(moved.xy, perspective, space.projection.z > 0.5);
+    return ray * space.projection.xy * vec2f(0.5, -0.5);
+}
+
+fn outside_light_map(space: LightSpace, position: vec3f, uv: vec2f) -> bool {
+    return position.z < space.depth.x || any(uv < vec2f(0.0)) || any(uv > vec2f(1.0));
+}
+
+fn chebyshev_bound(variance: f32, behind: f32) -> f32 {
+    return variance / (variance + behind * behind);
+}
+
+fn reduce_bleeding(visibility: f32, amount: f32) -> f32 {
+    let least = clamp(amount, 0.0, 0.99);
+    return saturate((visibility - least) / (1.0 - least));
+}
+
+fn map_footprint(size: vec2f, uv_dx: vec2f, uv_dy: vec2f, most: f32) -> MapFootprint {
+    let across = length(uv_dx * size);
+    let down = length(uv_dy * size);
+    let longer = max(across, down);
+    let taps = clamp(ceil(longer / max(min(across, down), 1.0) - 0.01), 1.0, most);
+    let level = log2(max(longer / taps, 1.0));
+    return MapFootprint(level, taps, select(uv_dy, uv_dx, across > down) / taps);
+}
+
+fn sample_footprint(
+    map: texture_2d_array<f32>,
+    map_sampler: sampler,
+    uv: vec2f,
+    layer: i32,
+    uv_dx: vec2f,
+    uv_dy: vec2f,
+    most: f32,
+) -> vec4f {
+    let footprint = map_footprint(vec2f(textureDimensions(map)), uv_dx, uv_dy, most);
+    let first = uv - 0.5 * (footprint.taps - 1.0) * footprint.step;
+    var sum = vec4f(0.0);
+    for (var i = 0.0; i < footprint.taps; i += 1.0) {
+        sum += textureSampleLevel(map, map_sampler, first + i * footprint.step, layer, footprint.level);
+    }
+    return sum / footprint.taps;
+}
+
+const SINGLE_EXPONENT: f32 = 42.0;
+const SINGLE_RISING_FAR: f32 = 1152921504606846976.0;
+const SINGLE_FALLING_FAR: f32 = 8.673617379884035e-19;
+
+fn rising_warp(depth: f32, exponent: f32, far: f32) -> f32 {
+    return far * exp(2.0 * exponent * (depth - 1.0));
+}
+
+fn falling_warp(depth: f32, exponent: f32, far: f32) -> f32 {
+    return -far * exp(2.0 * exponent * (1.0 - depth));
+}
+
+fn spot_light(
+    point: vec3f,
+    position: vec3f,
+    direction: vec3f,
+    color: vec3f,
+    intensity: f32,
+    inner_angle: f32,
+    outer_angle: f32,
+    near: f32,
+    range: f32,
+    radius: f32,
+) -> SpotLight {
+    let ray = point_light_ray(point, position);
+    let axis = direction * inverseSqrt(max(dot(direction, direction), 1e-20));
+    let cone = cone_falloff(-dot(ray.xyz, axis), inner_angle, outer_angle);
+    return SpotLight(color * (intensity * cone * inverse_square(ray.w)), ray.xyz, ray.w);
+}
+
+const EXPONENT: f32 = 40;
+const FALLING: f32 = 5;
+const ANISOTROPY: f32 = 16;
+
+fn exponential_variance_shadow(
+    point: vec3f,
+    space: LightSpace,
+    map: texture_2d_array<f32>,
+    tap_sampler: sampler,
+    minimum_variance: f32,
+    bleeding_reduction: f32,
+    receives: f32,
+) -> f32 {
+    let position = light_position(space, point);
+    let uv = light_map_uv(space, position);
+    let layer = light_layer(space);
+    let uv_dx = light_map_change(space, position, dpdx(point));
+    let uv_dy = light_map_change(space, position, dpdy(point));
+    let stored = sample_footprint(map, tap_sampler, uv, layer, uv_dx, uv_dy, ANISOTROPY);
+    let depth = saturate(light_depth_linear(space, position));
+    let exponent = min(EXPONENT, SINGLE_EXPONENT);
+    let rising = rising_warp(depth, exponent, SINGLE_RISING_FAR);
+    let least = max(minimum_variance, 1e-12);
+    let bound = warped_bound(stored.xy, rising, 2.0 * exponent * rising, least);
+    let exponent_2 = min(FALLING, SINGLE_EXPONENT);
+    let falling = falling_warp(depth, exponent_2, SINGLE_FALLING_FAR);
+    let lit = min(bound, warped_bound(stored.zw, falling, 2.0 * exponent_2 * falling, least));
+    let visibility = reduce_bleeding(lit, bleeding_reduction);
+    return select(visibility, 1.0, receives < 0.5 || outside_light_map(space, position, uv));
+}
+
+fn warped_bound(moments: vec2f, receiver: f32, stretch: f32, least: f32) -> f32 {
+    // In units of the slope, as squares of the numbers themselves may leave the range of f32.
+    let behind = max((receiver - moments.x) / abs(stretch), 0.0);
+    let variance = (moments.y - moments.x * moments.x) / abs(stretch) / abs(stretch);
+    return chebyshev_bound(max(variance, least), behind);
+}
+
+struct Vertex {
+    @location(0) position: vec3f,
+}
+
+struct Varyings {
+    @builtin(position) clip_position: vec4f,
+    @location(0) position_world: vec3f,
+}
+
+@vertex
+fn vs_main(in: Vertex) -> Varyings {
+    let world = object.object_to_world * vec4f(in.position, 1.0);
+    var out: Varyings;
+    out.clip_position = frame.world_to_clip * world;
+    out.position_world = world.xyz;
+    return out;
+}
+
+@fragment
+fn fs_main(in: Varyings) -> @location(0) vec4f {
+    // spot: Spot light
+    let spot = spot_light(
+        in.position_world,
+        parameters.spot_position,
+        parameters.spot_direction,
+        parameters.spot_color,
+        parameters.spot_intensity,
+        parameters.spot_inner_angle,
+        parameters.spot_outer_angle,
+        parameters.spot_near,
+        parameters.spot_range,
+        parameters.spot_radius,
+    );
+    // shadow: Exponential variance shadow
+    let shadow_visibility = exponential_variance_shadow(
+        in.position_world,
+        spot_space,
+        spot_map,
+        trilinear_clamp_sampler,
+        parameters.shadow_minimum_variance,
+        parameters.shadow_bleeding_reduction,
+        object.receives,
+    );
+    return vec4f(spot.irradiance * shadow_visibility, 1.0);
+}
