@@ -1,15 +1,16 @@
 //! Laws that shadows obey, on a real adapter with woven modules, against float64.
 
 mod adapters;
+mod exponential;
 pub(crate) mod lamp;
 mod lights;
+mod many;
+mod methods;
 mod percentage;
 mod planar;
-<<<<<<< HEAD
 mod splits;
-=======
+mod storage;
 mod summed;
->>>>>>> 2c937fc (Add shadows from summed-area tables, filtered and soft)
 mod surfaces;
 mod truth;
 mod variance;

@@ -69,6 +69,11 @@ impl Item {
         Self { mesh, place, casts: true, receives: true }
     }
 
+    /// Mirrors it along its own z axis.
+    pub(crate) fn mirror(&mut self) {
+        self.place *= DMat4::from_scale(DVec3::new(1.0, 1.0, -1.0));
+    }
+
     /// A horizontal rectangle.
     pub(crate) fn plane(size: [f64; 2], place: DMat4) -> Self {
         Self::new(&Shape::Plane { size, segments: [1, 1] }, place)
