@@ -133,9 +133,9 @@ fn fs_main(fragment_in: Varying) -> @location(0) vec4f {
     let far = HALF_RISING_FAR;
 //#end
     let rising = rising_warp(depth, exponent, far);
-    // The warp stretches what is near it by its slope, 2 c times its value; no mean square is above the far plane's.
-    let stretch = 2.0 * exponent * rising;
-    let rising_square = min(rising * rising + stretch * stretch * variance, far * rising);
+    // The warp stretches what is near it by its slope, 2 c times its value. The product of both squares would overflow.
+    let stretch = 2.0 * exponent;
+    let rising_square = min(rising * rising * (1.0 + stretch * stretch * variance), far * rising);
 //#if moments == one
     return vec2f(rising, rising_square);
 //#else
@@ -147,9 +147,9 @@ fn fs_main(fragment_in: Varying) -> @location(0) vec4f {
     let far_2 = HALF_FALLING_FAR;
 //#end
     let falling = falling_warp(depth, exponent_2, far_2);
-    let stretch_2 = 2.0 * exponent_2 * falling;
-    let most = falling_warp(0.0, exponent_2, far_2);
-    let falling_square = min(falling * falling + stretch_2 * stretch_2 * variance, max(most * falling, falling * falling));
+    let stretch_2 = 2.0 * exponent_2;
+    let nearest = falling_warp(0.0, exponent_2, far_2);
+    let falling_square = min(falling * falling * (1.0 + stretch_2 * stretch_2 * variance), nearest * falling);
     return vec4f(rising, rising_square, falling, falling_square);
 //#end
 //#end

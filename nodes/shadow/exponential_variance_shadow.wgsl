@@ -126,8 +126,9 @@ fn exponential_variance_shadow(
 /// Chebyshev's bound under a warp: `moments` of warped depth, the receiver's, the slope of the warp there, and the least
 /// variance of depth itself.
 fn warped_bound(moments: vec2f, receiver: f32, stretch: f32, least: f32) -> f32 {
-    // In units of the slope, as squares of the numbers themselves may leave the range of f32.
+    // In units of the slope, as squares of the numbers themselves may leave the range of f32. Where the filter reaches far
+    // behind the receiver, even that may be infinite.
     let behind = max((receiver - moments.x) / abs(stretch), 0.0);
     let variance = (moments.y - moments.x * moments.x) / abs(stretch) / abs(stretch);
-    return chebyshev_bound(max(variance, least), behind);
+    return chebyshev_bound(clamp(variance, least, 1e30), behind);
 }

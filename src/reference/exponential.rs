@@ -32,7 +32,7 @@ mod tests {
 
     #[test]
     fn one_occluder_leaks_by_its_gap_alone() {
-        for (c, gap) in [(80.0, 0.069_26), (11.0, 0.2)] {
+        for (c, gap) in [(80.0_f64, 0.069_26), (11.0, 0.2)] {
             let leak = exponential(&[(0.5, 1.0)], 0.5 + gap, c);
             assert!((leak - (-c * gap).exp()).abs() < 1e-12, "{leak}");
         }
@@ -44,8 +44,8 @@ mod tests {
     /// The warped bound is the bound on two occluders with warped distances, and its worst case their limit.
     #[test]
     fn a_warp_turns_distances_into_exponentials() {
-        for c in [5.54, 40.0] {
-            for gap in [0.005, 0.02, 0.1] {
+        for c in [5.54_f64, 40.0] {
+            for gap in [0.005_f64, 0.02, 0.1] {
                 for apart in [0.01, 0.3, 0.8] {
                     let spread = (1.0 - (-2.0 * c * apart).exp()) / ((2.0 * c * gap).exp() - 1.0);
                     let share = 1.0 / (spread + 2.0);

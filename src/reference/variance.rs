@@ -46,7 +46,7 @@ impl Mix {
 
     /// Everything in the filter: depths and their shares, the receiver's last.
     pub fn distribution(&self) -> Vec<(f64, f64)> {
-        self.occluders.iter().copied().chain(std::iter::once((self.receiver, self.lit()))).collect()
+        self.occluders.iter().copied().chain(std::iter::once((self.receiver, self.lit().max(0.0)))).collect()
     }
 
     /// Variance of the occluders alone, in squares of the distance from their mean to the receiver.
