@@ -1,6 +1,7 @@
 //! Laws that shadows obey, on a real adapter with woven modules, against float64.
 
 mod adapters;
+mod discs;
 mod exponential;
 pub(crate) mod lamp;
 mod lights;

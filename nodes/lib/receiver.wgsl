@@ -56,6 +56,12 @@ fn receiver_margin(space: LightSpace, plane: ReceiverPlane, map: texture_depth_2
     return ReceiverMargin(bias * space.depth.z + rounding, receiver_curvature(space, plane, size, 1.0));
 }
 
+/// The margin of a kernel that reaches this many texels, the same everywhere in it: facets that meet near the shaded point
+/// may then do so at larger angles.
+fn margin_within(margin: ReceiverMargin, texels: f32) -> ReceiverMargin {
+    return ReceiverMargin(margin.here + margin.per_texel * texels, 0.0);
+}
+
 /// Depth to compare with the texel whose centre is at `uv`.
 fn compared_depth(space: LightSpace, plane: ReceiverPlane, size: vec2f, uv: vec2f, margin: ReceiverMargin) -> f32 {
     let away = length((uv - plane.uv) * size);
