@@ -7,6 +7,7 @@ pub(crate) mod lamp;
 mod lights;
 mod many;
 mod methods;
+mod minification;
 mod percentage;
 mod planar;
 mod splits;

@@ -20,6 +20,15 @@ fn receiver_offset(space: LightSpace, position: vec3f, normal: vec3f, size: vec2
     return n * (select(1.0, -1.0, cosine < 0.0) * texels * max(texel.x, texel.y) * sine);
 }
 
+/// `light_map_change` in texels of a map of `size`. Mixed and not selected by the kind of light, because conditions of loops
+/// may depend on it: Mesa 22.3's lavapipe crashes where those depend on a value selected by a uniform.
+fn texel_change(space: LightSpace, position: vec3f, change: vec3f, size: vec2f) -> vec2f {
+    let moved = (space.world_to_light * vec4f(change, 0.0)).xyz;
+    let w = mix(1.0, max(position.z, 1e-6), space.projection.z);
+    let ray = (moved.xy - position.xy * (moved.z * space.projection.z / w)) / w;
+    return ray * space.projection.xy * vec2f(0.5, -0.5) * size;
+}
+
 /// What z / w and radial depth are known to: two steps of float32 below 1, from the stored and from the compared value.
 const METRIC_ROUNDING: f32 = 2.4e-7;
 
