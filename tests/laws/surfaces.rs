@@ -59,7 +59,14 @@ fn comparisons_do_not_darken_lit_slopes() {
             check("hard_shadow", &format!("\"metric\": \"{metric}\", \"size\": \"256\""));
             check("pcf_shadow", &format!("\"metric\": \"{metric}\", \"size\": \"256\", \"width\": \"9\""));
         }
+        check("pcss_shadow", "");
+        check("pcss_shadow", "\"size\": \"256\", \"filter\": \"64\"");
+        check("adaptive_pcf_shadow", "");
         for taps in ["nearest", "bilinear", "hardware"] {
+            check("disc_shadow", &format!("\"size\": \"256\", \"taps\": \"{taps}\""));
+            if taps != "nearest" {
+                check("adaptive_pcf_shadow", &format!("\"size\": \"256\", \"taps\": \"{taps}\""));
+            }
             for width in [1, 3, 5, 7, 9] {
                 check("pcf_shadow", &format!("\"size\": \"256\", \"width\": \"{width}\", \"taps\": \"{taps}\""));
             }
@@ -103,7 +110,8 @@ fn variance_hardly_darkens_lit_slopes() {
 }
 
 /// Every shadow node with its defaults.
-const SHADOWS: [&str; 3] = ["hard_shadow", "pcf_shadow", "variance_shadow"];
+const SHADOWS: [&str; 6] =
+    ["hard_shadow", "pcf_shadow", "disc_shadow", "adaptive_pcf_shadow", "pcss_shadow", "variance_shadow"];
 
 /// A box on the ground, lit from the left at 45 degrees: the ground right behind it is dark up to the contact.
 #[test]
