@@ -202,7 +202,8 @@ mod tests {
             assert!((distance * distance - along * along).max(0.0).sqrt() <= 0.5 + 1e-9);
             assert!(((point + ray - center).dot(center - point)).abs() < 1e-9);
         }
-        assert_eq!(ball.towards(center + DVec3::X * 0.1, DVec2::splat(0.3)), DVec3::X * -0.1);
+        let inside = ball.towards(center + DVec3::X * 0.1, DVec2::splat(0.3));
+        assert!(inside.abs_diff_eq(DVec3::X * -0.1, 1e-12), "{inside}");
         assert!(Source::Point { position: center }.is_sharp() && !disc.is_sharp() && !rectangle.is_sharp());
     }
 }
