@@ -27,9 +27,9 @@ mod world;
 
 pub use area::{Emitter, penumbra_scale, rectangle_irradiance};
 pub use bvh::Bvh;
+pub use exponential::{exponential, warped_bound, worst_warped_bleeding};
 pub use fine_map::{Filter, FineMap};
 pub use footprint::filter_below;
-pub use exponential::{exponential, warped_bound, worst_warped_bleeding};
 pub use hamburger::{hamburger, signed_moments};
 pub use kernel::{Weights, box_ramp, edge_visibility, gaussian_ramp, kernel};
 pub use layers::{Layer, Layers, Taps};

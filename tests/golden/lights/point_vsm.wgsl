@@ -43,6 +43,12 @@ struct LightSpace {
     warp: vec4f,
 }
 
+struct MapFootprint {
+    level: f32,
+    taps: f32,
+    step: vec2f,
+}
+
 struct PointLight {
     irradiance: vec3f,
     direction: vec3f,
@@ -52,7 +58,7 @@ struct PointLight {
 @group(0) @binding(0) var<uniform> frame: Frame;
 @group(1) @binding(0) var<uniform> object: Object;
 @group(2) @binding(0) var<uniform> parameters: Parameters;
-@group(2) @binding(1) var trilinear_clamp_anisotropic16_sampler: sampler;
+@group(2) @binding(1) var trilinear_clamp_sampler: sampler;
 @group(3) @binding(0) var<uniform> point_space: array<LightSpace, 6>;
 @group(3) @binding(1) var point_map: texture_2d_array<f32>;
 
@@ -72,6 +78,10 @@ fn light_position(space: LightSpace, point: vec3f) -> vec3f {
 
 fn light_linear_depth(space: LightSpace, distance: f32) -> f32 {
     return (distance - space.depth.x) * space.depth.z;
+}
+
+fn light_depth_linear(space: LightSpace, position: vec3f) -> f32 {
+    return light_linear_depth(space, position.z);
 }
 
 fn light_ray(space: LightSpace, position: vec3f) -> vec2f {
@@ -110,6 +120,42 @@ fn outside_light_map(space: LightSpace, position: vec3f, uv: vec2f) -> bool {
     return position.z < space.depth.x || any(uv < vec2f(0.0)) || any(uv > vec2f(1.0));
 }
 
+fn chebyshev_bound(variance: f32, behind: f32) -> f32 {
+    return variance / (variance + behind * behind);
+}
+
+fn reduce_bleeding(visibility: f32, amount: f32) -> f32 {
+    let least = clamp(amount, 0.0, 0.99);
+    return saturate((visibility - least) / (1.0 - least));
+}
+
+fn map_footprint(size: vec2f, uv_dx: vec2f, uv_dy: vec2f, most: f32) -> MapFootprint {
+    let across = length(uv_dx * size);
+    let down = length(uv_dy * size);
+    let longer = max(across, down);
+    let taps = clamp(ceil(longer / max(min(across, down), 1.0) - 0.01), 1.0, most);
+    let level = log2(max(longer / taps, 1.0));
+    return MapFootprint(level, taps, select(uv_dy, uv_dx, across > down) / taps);
+}
+
+fn sample_footprint(
+    map: texture_2d_array<f32>,
+    map_sampler: sampler,
+    uv: vec2f,
+    layer: i32,
+    uv_dx: vec2f,
+    uv_dy: vec2f,
+    most: f32,
+) -> vec4f {
+    let footprint = map_footprint(vec2f(textureDimensions(map)), uv_dx, uv_dy, most);
+    let first = uv - 0.5 * (footprint.taps - 1.0) * footprint.step;
+    var sum = vec4f(0.0);
+    for (var i = 0.0; i < footprint.taps; i += 1.0) {
+        sum += textureSampleLevel(map, map_sampler, first + i * footprint.step, layer, footprint.level);
+    }
+    return sum / footprint.taps;
+}
+
 fn point_light(
     point: vec3f,
     position: vec3f,
@@ -123,29 +169,35 @@ fn point_light(
     return PointLight(color * (intensity * inverse_square(ray.w)), ray.xyz, ray.w);
 }
 
+const ANISOTROPY: f32 = 16;
+
 fn variance_shadow(
     point: vec3f,
     space: LightSpace,
     map: texture_2d_array<f32>,
-    map_sampler: sampler,
+    tap_sampler: sampler,
     minimum_variance: f32,
     bleeding_reduction: f32,
     receives: f32,
 ) -> f32 {
     let position = light_position(space, point);
     let uv = light_map_uv(space, position);
+    let layer = light_layer(space);
     let uv_dx = light_map_change(space, position, dpdx(point));
     let uv_dy = light_map_change(space, position, dpdy(point));
-    let moments = textureSampleGrad(map, map_sampler, uv, light_layer(space), uv_dx, uv_dy).xy;
+    let texel = sample_footprint(map, tap_sampler, uv, layer, uv_dx, uv_dy, ANISOTROPY);
+    let stored = texel.xy;
+    let mean = stored.x;
+    let spread = stored.y - mean * mean;
+    let measured = light_depth_linear(space, position);
     // Beyond the far plane the map holds depths above 1, if its format can: there the receiver is lit where it is what
     // the map shows, and in the shadow of anything nearer.
-    let depth = min(max(light_linear_depth(space, position.z), 0.0), max(moments.x, 1.0));
+    let depth = min(max(measured, 0.0), max(mean, 1.0));
     // 1e-12 keeps 0 / 0 out where both the variance and the difference vanish.
-    let variance = max(moments.y - moments.x * moments.x, max(minimum_variance, 1e-12));
-    let behind = max(depth - moments.x, 0.0);
-    let bound = variance / (variance + behind * behind);
-    let least = clamp(bleeding_reduction, 0.0, 0.99);
-    let visibility = saturate((bound - least) / (1.0 - least));
+    let least = max(minimum_variance, 1e-12);
+    let variance = max(spread, least);
+    let bound = chebyshev_bound(variance, max(depth - mean, 0.0));
+    let visibility = reduce_bleeding(bound, bleeding_reduction);
     return select(visibility, 1.0, receives < 0.5 || outside_light_map(space, position, uv));
 }
 
@@ -184,7 +236,7 @@ fn fs_main(in: Varyings) -> @location(0) vec4f {
         in.position_world,
         point_space[cube_view(point_space[0], in.position_world)],
         point_map,
-        trilinear_clamp_anisotropic16_sampler,
+        trilinear_clamp_sampler,
         parameters.shadow_minimum_variance,
         parameters.shadow_bleeding_reduction,
         object.receives,

@@ -42,6 +42,8 @@ struct LightSpace {
     /// it is seen under (parallel). z: 1 an ellipse, 0 a rectangle. w: texels per metre here over those of the light's
     /// coarsest view.
     source: vec4f,
+    /// x: strength of the warp, -1 to 1, where the light warps its map.
+    warp: vec4f,
 }
 
 struct MapFootprint {
@@ -212,10 +214,11 @@ fn exponential_variance_shadow(
 }
 
 fn warped_bound(moments: vec2f, receiver: f32, stretch: f32, least: f32) -> f32 {
-    // In units of the slope, as squares of the numbers themselves may leave the range of f32.
+    // In units of the slope, as squares of the numbers themselves may leave the range of f32. Where the filter reaches far
+    // behind the receiver, even that may be infinite.
     let behind = max((receiver - moments.x) / abs(stretch), 0.0);
     let variance = (moments.y - moments.x * moments.x) / abs(stretch) / abs(stretch);
-    return chebyshev_bound(max(variance, least), behind);
+    return chebyshev_bound(clamp(variance, least, 1e30), behind);
 }
 
 struct Vertex {

@@ -42,6 +42,8 @@ struct LightSpace {
     /// it is seen under (parallel). z: 1 an ellipse, 0 a rectangle. w: texels per metre here over those of the light's
     /// coarsest view.
     source: vec4f,
+    /// x: strength of the warp, -1 to 1, where the light warps its map.
+    warp: vec4f,
 }
 
 struct ReceiverPlane {

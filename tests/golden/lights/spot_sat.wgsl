@@ -43,6 +43,8 @@ struct LightSpace {
     /// it is seen under (parallel). z: 1 an ellipse, 0 a rectangle. w: texels per metre here over those of the light's
     /// coarsest view.
     source: vec4f,
+    /// x: strength of the warp, -1 to 1, where the light warps its map.
+    warp: vec4f,
 }
 
 struct ReceiverPlane {
@@ -150,15 +152,18 @@ fn receiver_plane(space: LightSpace, position: vec3f, normal: vec3f) -> Receiver
     return ReceiverPlane(light_map_uv(space, position), position.z, n.xy * ray_per_uv / bounded, n.xy / bounded);
 }
 
-fn receiver_depth(space: LightSpace, plane: ReceiverPlane, uv: vec2f) -> f32 {
+fn receiver_distance(space: LightSpace, plane: ReceiverPlane, uv: vec2f) -> f32 {
     let change = dot(plane.slope, uv - plane.uv);
     let parallel = plane.distance - change;
     // Rays that run away along the plane are held within four times the distance.
     let perspective = plane.distance / max(1.0 + change, 0.25);
     let is_perspective = space.projection.z > 0.5;
     let across = length((uv - plane.uv) * 2.0 / space.projection.xy) * select(1.0, plane.distance, is_perspective);
-    let distance = min(select(parallel, perspective, is_perspective), plane.distance + MAX_RETREAT * across);
-    return saturate(light_linear_depth(space, distance));
+    return min(select(parallel, perspective, is_perspective), plane.distance + MAX_RETREAT * across);
+}
+
+fn receiver_depth(space: LightSpace, plane: ReceiverPlane, uv: vec2f) -> f32 {
+    return saturate(light_linear_depth(space, receiver_distance(space, plane, uv)));
 }
 
 fn geometric_normal(point: vec3f) -> vec3f {

@@ -44,6 +44,8 @@ struct LightSpace {
     /// it is seen under (parallel). z: 1 an ellipse, 0 a rectangle. w: texels per metre here over those of the light's
     /// coarsest view.
     source: vec4f,
+    /// x: strength of the warp, -1 to 1, where the light warps its map.
+    warp: vec4f,
 }
 
 struct ReceiverPlane {
@@ -144,15 +146,18 @@ fn receiver_plane(space: LightSpace, position: vec3f, normal: vec3f) -> Receiver
     return ReceiverPlane(light_map_uv(space, position), position.z, n.xy * ray_per_uv / bounded, n.xy / bounded);
 }
 
-fn receiver_depth(space: LightSpace, plane: ReceiverPlane, uv: vec2f) -> f32 {
+fn receiver_distance(space: LightSpace, plane: ReceiverPlane, uv: vec2f) -> f32 {
     let change = dot(plane.slope, uv - plane.uv);
     let parallel = plane.distance - change;
     // Rays that run away along the plane are held within four times the distance.
     let perspective = plane.distance / max(1.0 + change, 0.25);
     let is_perspective = space.projection.z > 0.5;
     let across = length((uv - plane.uv) * 2.0 / space.projection.xy) * select(1.0, plane.distance, is_perspective);
-    let distance = min(select(parallel, perspective, is_perspective), plane.distance + MAX_RETREAT * across);
-    return saturate(light_linear_depth(space, distance));
+    return min(select(parallel, perspective, is_perspective), plane.distance + MAX_RETREAT * across);
+}
+
+fn receiver_depth(space: LightSpace, plane: ReceiverPlane, uv: vec2f) -> f32 {
+    return saturate(light_linear_depth(space, receiver_distance(space, plane, uv)));
 }
 
 fn geometric_normal(point: vec3f) -> vec3f {
@@ -231,12 +236,14 @@ fn spot_light(
 const FRACTION_BITS: u32 = 18;
 const DISC_AS_SQUARE: f32 = 0.8660254;
 
-fn source_width(space: LightSpace, size: vec2f, distance: f32, occluder: f32) -> vec2f {
-    let gap = max(distance - occluder, 0.0);
-    // On the plane the light's half size appears times gap / distance, and a metre there is 1 / occluder of the map's ray.
-    let spread = select(gap, gap / max(distance * occluder, 1e-12), space.projection.z > 0.5);
-    let shape = select(1.0, DISC_AS_SQUARE, space.source.z > 0.5);
-    return space.source.xy * space.projection.xy * size * (spread * shape);
+fn source_width(space: LightSpace, position: vec3f, size: vec2f, occluder: f32) -> vec2f {
+    let gap = max(position.z - occluder, 0.0);
+    let spread = select(gap, gap / max(occluder, 1e-6), space.projection.z > 0.5);
+    // Half of what the penumbra is wide at the point, metres.
+    let reach = space.source.xy * (spread * select(1.0, DISC_AS_SQUARE, space.source.z > 0.5));
+    let across = light_map_uv(space, position + vec3f(reach.x, 0.0, 0.0)) - light_map_uv(space, position);
+    let down = light_map_uv(space, position + vec3f(0.0, reach.y, 0.0)) - light_map_uv(space, position);
+    return 2.0 * size * (abs(across) + abs(down));
 }
 
 fn summed_area_soft_shadow(
@@ -258,7 +265,7 @@ fn summed_area_soft_shadow(
     let widest = vec2f(f32(1u << ((32u - FRACTION_BITS) / 2u)));
 
     // Occluders are nearer than the receiver and beyond the near plane: there the light appears largest.
-    let search_width = softness * source_width(space, size, position.z, space.depth.x);
+    let search_width = softness * source_width(space, position, size, space.depth.x);
     let search = summed_box(plane.uv, clamp(search_width, vec2f(minimum_width), widest), size);
     let seen = summed_mean(table, layer, search) * scale;
     let behind = max(receiver_depth(space, plane, search.center) - seen.x, 1e-6);
@@ -267,7 +274,7 @@ fn summed_area_soft_shadow(
     let gap = (variance + behind * behind) / behind;
     let occluder = max(position.z - gap / space.depth.z, space.depth.x);
 
-    let penumbra = softness * source_width(space, size, position.z, occluder);
+    let penumbra = softness * source_width(space, position, size, occluder);
     let region = summed_box(plane.uv, clamp(penumbra, vec2f(minimum_width), widest), size);
     let moments = summed_mean(table, layer, region) * scale;
     let depth = receiver_depth(space, plane, region.center);

@@ -43,6 +43,8 @@ struct LightSpace {
     /// it is seen under (parallel). z: 1 an ellipse, 0 a rectangle. w: texels per metre here over those of the light's
     /// coarsest view.
     source: vec4f,
+    /// x: strength of the warp, -1 to 1, where the light warps its map.
+    warp: vec4f,
 }
 
 struct ReceiverPlane {
@@ -248,13 +250,13 @@ fn pcf_shadow(
     bias: f32,
     receives: f32,
 ) -> f32 {
-    let normal = geometric_normal(point);
-    let position = light_position(space, point);
-    let layer = light_layer(space);
-    let plane = receiver_plane(space, position, normal);
     let size = vec2f(textureDimensions(map));
-    let curvature = receiver_curvature(space, plane, size, 0.5 * f32(WIDTH) + 0.5);
-    let margin = bias * space.depth.z + receiver_rounding(receiver_slope(space, plane) / size) + curvature;
+    let layer = light_layer(space);
+    let reach = 0.5 * f32(WIDTH) + 0.5;
+    let position = light_position(space, point);
+    let plane = receiver_plane(space, position, geometric_normal(point));
+    let rounding = receiver_rounding(receiver_slope(space, plane) / size);
+    let margin = bias * space.depth.z + rounding + receiver_curvature(space, plane, size, reach);
     // Bilinear taps on a grid share their texels: each texel is compared once, with the kernel convolved with the tent.
     let corner = plane.uv * size - 0.5;
     let part = fract(corner);
@@ -273,13 +275,17 @@ fn pcf_shadow(
             let weight = mix(kernel_x, before_x, part.x) * weight_y;
             before_x = kernel_x;
             let uv = (first + vec2f(f32(x + WIDTH / 2), f32(y + WIDTH / 2))) / size;
-            let depth = receiver_depth(space, plane, uv) - margin;
+            let depth = compared_at(space, plane, uv, margin);
             sum += weight * textureSampleCompareLevel(map, map_sampler, uv, layer, depth);
             total += weight;
         }
     }
     let visibility = sum / total;
     return select(visibility, 1.0, receives < 0.5 || outside_light_map(space, position, plane.uv));
+}
+
+fn compared_at(space: LightSpace, plane: ReceiverPlane, uv: vec2f, margin: f32) -> f32 {
+    return receiver_depth(space, plane, uv) - margin;
 }
 
 const ANISOTROPY: f32 = 16;
