@@ -33,8 +33,8 @@ pub fn verify(module: &Module) -> Result<Verified, Vec<Diagnostic>> {
     checked.and_then(|r| r).map_err(|fault| fault.report(module))
 }
 
-/// Deepest brackets, and most operators in a statement, with which naga needs no more than half a small stack (2 MiB):
-/// it recurses over both, at no more than 8 KiB a level with optimisation off.
+/// Deepest brackets, most operators and members in a statement, and most branches, with which naga needs no more than half a small stack (2 MiB):
+/// it recurses over each, at no more than 8 KiB a level with optimisation off.
 const SHALLOW: usize = 64;
 /// Most declarations, which naga sorts by recursion over what they mention.
 const FEW: usize = 512;
@@ -42,10 +42,17 @@ const FEW: usize = 512;
 /// Whether naga can take a text without recursing deeply. Comments count as if they were code, which errs on the safe
 /// side: an end of a statement in a comment is followed by the end of the line, never by more of a statement.
 fn is_shallow(wgsl: &str) -> bool {
+    if wgsl.matches("else").nth(SHALLOW).is_some() {
+        return false;
+    }
     let (mut depth, mut operators, mut declarations) = (0_usize, 0_usize, 0_usize);
-    for byte in wgsl.bytes() {
+    let bytes = wgsl.as_bytes();
+    for (at, byte) in bytes.iter().copied().enumerate() {
         match byte {
-            b'(' | b'[' => depth += 1,
+            b'(' => depth += 1,
+            // `a[0][1]` is as deep as `a.b.c`.
+            b'[' => (depth, operators) = (depth + 1, operators + 1),
+            b'.' => operators += usize::from(bytes.get(at + 1).is_some_and(|b| !b.is_ascii_digit())),
             b')' | b']' => depth = depth.saturating_sub(1),
             b'+' | b'-' | b'*' | b'/' | b'%' | b'&' | b'|' | b'^' | b'<' | b'>' | b'=' | b'!' | b'~' => operators += 1,
             b'{' | b'}' | b';' => {
@@ -176,7 +183,10 @@ mod tests {
         let brackets = format!("fn a() -> f32 {{ return {}1.0{}; }}", "(".repeat(80), ")".repeat(80));
         let sum = format!("fn a() -> f32 {{ return 1.0{}; }}", " + 1.0".repeat(80));
         let many: String = (0..600).map(|i| format!("const C{i} = 1.0;\n")).collect();
-        for deep in [brackets, sum, many] {
+        let members = format!("fn a(v: vec3f) -> vec3f {{ return v{}; }}", ".xyz".repeat(80));
+        let indices = format!("fn a(v: vec3f) -> f32 {{ return v{}; }}", "[0]".repeat(80));
+        let branches = format!("fn a(b: bool) {{ if b {{}} {} }}", "else if b {} ".repeat(80));
+        for deep in [brackets, sum, many, members, indices, branches] {
             assert!(!is_shallow(&deep), "{deep}");
         }
         let statements = format!("fn a() {{ {} }}", "let b = 1.0 + 2.0; ".repeat(600));
