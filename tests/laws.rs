@@ -3,6 +3,7 @@
 mod adapters;
 mod discs;
 mod exponential;
+mod kept;
 pub(crate) mod lamp;
 mod lights;
 mod many;

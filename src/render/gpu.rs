@@ -9,25 +9,33 @@ use super::format::{self, Abilities, channels, name_of, texel_bytes};
 use super::job::{ColorFormat, Frame, Job, MapPicture};
 use super::main_pass::{Main, Target, background_spec, main_spec};
 use super::map_passes::Work;
+use super::map_store::{MapStore, casters};
 use super::maps::{LightPlans, MapPlan};
 use super::pipeline::Pipelines;
 use super::timing::Timer;
-use super::uploads::Uploads;
+use super::uploads::{KeptUploads, Uploads};
 use super::{RenderError, read_back};
 
 /// Most bytes of textures that one job may take.
 const MOST_BYTES: u64 = 4 << 30;
 
-/// A device with the pipelines that it has made so far.
+/// A device with what it has made so far, and uses again where nothing has changed that it depends on.
 pub struct Gpu {
     device: Device,
     pipelines: Pipelines,
+    maps: MapStore,
+    uploads: KeptUploads,
 }
 
 impl Gpu {
     /// Opens the adapter that the options ask for.
     pub fn new(options: &AdapterOptions) -> Result<Self, RenderError> {
-        Ok(Self { device: Device::open(options)?, pipelines: Pipelines::default() })
+        Ok(Self {
+            device: Device::open(options)?,
+            pipelines: Pipelines::default(),
+            maps: MapStore::default(),
+            uploads: KeptUploads::default(),
+        })
     }
 
     /// What it runs on.
@@ -40,6 +48,29 @@ impl Gpu {
         self.pipelines.built
     }
 
+    /// Views of lights that casters were drawn into so far. A light and casters that stay as they were need none, however
+    /// the camera moves: their maps are kept.
+    pub fn views_drawn(&self) -> usize {
+        self.maps.drawn
+    }
+
+    /// Buffers and textures that were uploaded so far. Meshes and pictures with the same contents need none.
+    pub fn uploads_made(&self) -> usize {
+        self.uploads.made
+    }
+
+    /// Keeps at most so many bytes of maps for later pictures (512 MiB unless said). With 0 every picture makes its maps,
+    /// which is what measuring them takes.
+    pub fn keep_maps(&mut self, bytes: u64) {
+        self.maps.set_room(bytes);
+    }
+
+    /// Whether no map and no upload is kept.
+    #[cfg(test)]
+    pub(super) fn keeps_nothing(&self) -> bool {
+        self.maps.is_empty() && self.uploads.is_empty()
+    }
+
     /// Destroys the device, as a driver reset would.
     #[cfg(test)]
     pub(super) fn lose(&self) {
@@ -49,7 +80,8 @@ impl Gpu {
     /// Renders a picture.
     pub fn render(&mut self, job: &Job<'_>) -> Result<Frame, RenderError> {
         check_camera(&job.camera)?;
-        let (device, pipelines) = (&self.device, &mut self.pipelines);
+        let Self { device, pipelines, maps: store, uploads: kept } = self;
+        let device = &*device;
         device.check_texture("the picture", job.size.0, job.size.1)?;
         if !matches!(job.samples, 1 | 4) {
             return Err(RenderError::Job(format!("{} samples per pixel: only 1 and 4 are possible", job.samples)));
@@ -74,24 +106,24 @@ impl Gpu {
             }
             _ => None,
         };
-        device.scoped("the picture", || {
-            let mut uploads = Uploads::new(device);
+        let frame = device.scoped("the picture", || {
+            let mut uploads = Uploads::new(device, kept);
             let passes = lights.maps.iter().map(|m| m.passes.len() * m.views.len()).sum::<usize>();
             let mut timer = Timer::new(device, passes + 1);
             let mut encoder = device.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
-            let objects = objects(device, job)?;
-            let mut maps = Vec::new();
-            for map in &lights.maps {
-                let mut work = Work {
-                    device,
-                    encoder: &mut encoder,
-                    timer: &mut timer,
-                    draws: &job.draws,
-                    objects: &objects,
-                    uploads: &mut uploads,
-                };
-                maps.push(map.render(&mut work, None, map.passes.len())?);
-            }
+            let blocks = object_blocks(job)?;
+            let objects = objects(device, &blocks)?;
+            let casters = if lights.maps.is_empty() { None } else { Some(casters(&job.draws, &blocks, &mut uploads)) };
+            let mut work = Work {
+                device,
+                encoder: &mut encoder,
+                timer: &mut timer,
+                draws: &job.draws,
+                objects: &objects,
+                uploads: &mut uploads,
+            };
+            let maps = casters.map(|casters| store.maps(&lights.maps, casters, &mut work)).transpose()?;
+            let maps = maps.unwrap_or_default();
             timer.next("main".into());
             let prepared = Main { job, target, lights: &lights, maps: &maps, objects: &objects };
             let picture = prepared.render(device, &mut encoder, &timer, &main, background.as_deref(), &mut uploads)?;
@@ -100,12 +132,18 @@ impl Gpu {
             let timings = timer.finish(device)?;
             add_new(&mut messages, uploads.messages);
             Ok(Frame { size: job.size, pixels, timings, adapter: device.summary.clone(), messages })
-        })
+        });
+        if frame.is_err() {
+            // What was made may never have been finished, and is gone where the device is.
+            store.clear();
+            kept.clear();
+        }
+        frame
     }
 
     /// Renders a map of a light and reads it back: the one at `index` among the distinct maps of that light.
     pub fn map(&mut self, job: &Job<'_>, light: &str, index: usize) -> Result<MapPicture, RenderError> {
-        let device = &self.device;
+        let (device, kept) = (&self.device, &mut self.uploads);
         let mut lights = LightPlans::gather(device, job)?;
         let position = lights.maps.iter().enumerate().filter(|(_, m)| m.light == light).nth(index).map(|(i, _)| i);
         let Some(position) = position else {
@@ -122,11 +160,11 @@ impl Gpu {
         let mut messages = std::mem::take(&mut lights.messages);
         let map = &lights.maps[0];
         check("the map", map.bytes(), MOST_BYTES, "bytes")?;
-        device.scoped("the map", || {
-            let mut uploads = Uploads::new(device);
+        let picture = device.scoped("the map", || {
+            let mut uploads = Uploads::new(device, kept);
             let mut timer = Timer::new(device, map.passes.len() * map.views.len());
             let mut encoder = device.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
-            let objects = objects(device, job)?;
+            let objects = objects(device, &object_blocks(job)?)?;
             let mut work = Work {
                 device,
                 encoder: &mut encoder,
@@ -154,7 +192,12 @@ impl Gpu {
                 spaces: map.views.clone(),
                 messages,
             })
-        })
+        });
+        if picture.is_err() {
+            self.maps.clear();
+            self.uploads.clear();
+        }
+        picture
     }
 }
 
@@ -167,9 +210,13 @@ fn add_new(messages: &mut Vec<String>, more: Vec<String>) {
     }
 }
 
+/// The object blocks as the passes read them.
+fn objects(device: &Device, blocks: &[Vec<u8>]) -> Result<Vec<wgpu::Buffer>, RenderError> {
+    blocks.iter().map(|block| device.buffer("object", wgpu::BufferUsages::UNIFORM, block)).collect()
+}
+
 /// One object block per draw.
-fn objects(device: &Device, job: &Job<'_>) -> Result<Vec<wgpu::Buffer>, RenderError> {
-    let block = |draw| device.buffer("object", wgpu::BufferUsages::UNIFORM, &object_block(draw)?);
+fn object_blocks(job: &Job<'_>) -> Result<Vec<Vec<u8>>, RenderError> {
     for draw in &job.draws {
         let vertices = draw.mesh.positions.len();
         let stray = draw.mesh.indices.iter().find(|i| usize::try_from(**i).is_ok_and(|i| i >= vertices));
@@ -177,7 +224,7 @@ fn objects(device: &Device, job: &Job<'_>) -> Result<Vec<wgpu::Buffer>, RenderEr
             return Err(RenderError::Job(format!("a mesh of {vertices} vertices mentions vertex {index}")));
         }
     }
-    job.draws.iter().map(block).collect()
+    job.draws.iter().map(object_block).collect()
 }
 
 /// The precision that was asked for, or the best that the adapter has.

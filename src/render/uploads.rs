@@ -1,4 +1,5 @@
-//! What a job brings to the device: vertices, images, samplers, surroundings. Each is uploaded once per job.
+//! What a job brings to the device: vertices, images, samplers, surroundings. Each is looked at once per job, and uploaded
+//! where an earlier job has not brought the same contents.
 
 use std::collections::BTreeMap;
 
@@ -7,14 +8,49 @@ use wgpu::TextureFormat;
 
 use super::RenderError;
 use super::device::Device;
+use super::fingerprint::{Fingerprint, Fingerprinter};
 use super::job::{ImageLoader, Picture, Surroundings, SurroundingsLevel, Texels};
 use super::picture_levels::levels;
+use super::shelf::Shelf;
 use crate::module::{Address, Attribute, SamplerSettings};
 use crate::scene::Mesh;
+
+/// Bytes of vertices, and of pictures, that are kept at most.
+const ROOM: u64 = 256 << 20;
+
+/// Uploads of earlier jobs, by their contents.
+pub(super) struct KeptUploads {
+    vertices: Shelf<wgpu::Buffer>,
+    textures: Shelf<wgpu::TextureView>,
+    /// Buffers and textures that were made so far.
+    pub(super) made: usize,
+}
+
+impl Default for KeptUploads {
+    fn default() -> Self {
+        Self { vertices: Shelf::new(ROOM), textures: Shelf::new(ROOM), made: 0 }
+    }
+}
+
+impl KeptUploads {
+    /// Whether nothing is kept.
+    #[cfg(test)]
+    pub(super) fn is_empty(&self) -> bool {
+        self.vertices.is_empty() && self.textures.is_empty()
+    }
+
+    /// Forgets everything.
+    pub(super) fn clear(&mut self) {
+        self.vertices.clear();
+        self.textures.clear();
+    }
+}
 
 /// Uploads of one job.
 pub(super) struct Uploads<'a> {
     device: &'a Device,
+    kept: &'a mut KeptUploads,
+    contents: BTreeMap<(usize, u32), Fingerprint>,
     vertices: BTreeMap<(usize, u32), wgpu::Buffer>,
     images: BTreeMap<(String, String, bool), wgpu::TextureView>,
     samplers: BTreeMap<SamplerSettings, wgpu::Sampler>,
@@ -27,15 +63,31 @@ pub(super) struct Uploads<'a> {
 const INDICES: u32 = u32::MAX;
 
 impl<'a> Uploads<'a> {
-    pub(super) fn new(device: &'a Device) -> Self {
+    pub(super) fn new(device: &'a Device, kept: &'a mut KeptUploads) -> Self {
         Self {
             device,
+            kept,
+            contents: BTreeMap::new(),
             vertices: BTreeMap::new(),
             images: BTreeMap::new(),
             samplers: BTreeMap::new(),
             environment: None,
             messages: Vec::new(),
         }
+    }
+
+    /// Stands for where the triangles of a mesh are.
+    pub(super) fn shape(&mut self, mesh: &Mesh) -> Fingerprint {
+        let positions = self.contents(mesh, Attribute::Position.location(), bytemuck::cast_slice(&mesh.positions));
+        let indices = self.contents(mesh, INDICES, bytemuck::cast_slice(&mesh.indices));
+        Fingerprinter::new().and(positions).and(indices).finish()
+    }
+
+    /// Stands for the contents of one attribute.
+    fn contents(&mut self, mesh: &Mesh, location: u32, bytes: &[u8]) -> Fingerprint {
+        // Meshes outlive the job, so that their addresses name them.
+        let key = (std::ptr::from_ref(mesh).addr(), location);
+        *self.contents.entry(key).or_insert_with(|| Fingerprinter::new().bytes(bytes).finish())
     }
 
     /// One vertex attribute of a mesh.
@@ -69,12 +121,21 @@ impl<'a> Uploads<'a> {
         usage: wgpu::BufferUsages,
         bytes: &[u8],
     ) -> Result<wgpu::Buffer, RenderError> {
-        // Meshes outlive the job, so that their addresses name them.
         let key = (std::ptr::from_ref(mesh).addr(), location);
         if let Some(buffer) = self.vertices.get(&key) {
             return Ok(buffer.clone());
         }
-        let buffer = self.device.buffer("a mesh", usage, bytes)?;
+        let contents = self.contents(mesh, location, bytes);
+        let name = Fingerprinter::new().and(contents).number(u64::from(usage.bits())).finish();
+        let buffer = match self.kept.vertices.get(name) {
+            Some(buffer) => buffer,
+            None => {
+                let buffer = self.device.buffer("a mesh", usage, bytes)?;
+                self.kept.made += 1;
+                self.kept.vertices.put(name, buffer.clone(), buffer.size());
+                buffer
+            }
+        };
         self.vertices.insert(key, buffer.clone());
         Ok(buffer)
     }
@@ -100,10 +161,17 @@ impl<'a> Uploads<'a> {
         if texels == 0 || texels as u64 != u64::from(picture.width) * u64::from(picture.height) {
             return Err(refuse(format!("{texels} texels are no {} x {} picture", picture.width, picture.height)));
         }
-        let mut all = levels(&picture, srgb);
         let most = self.device.limits.max_texture_dimension_2d;
-        let fitting = all.iter().position(|l| l.width.max(l.height) <= most).unwrap_or(0);
-        if fitting > 0 {
+        let too_large = picture.width.max(picture.height) > most;
+        // Files change: a picture is known by what is in it. One that is reduced is made again, with what is said of it.
+        let name = image_name(&picture, srgb);
+        if let Some(view) = self.kept.textures.get(name).filter(|_| !too_large) {
+            self.images.insert(key, view.clone());
+            return Ok(view);
+        }
+        let mut all = levels(&picture, srgb);
+        if too_large {
+            let fitting = all.iter().position(|l| l.width.max(l.height) <= most).unwrap_or(0);
             all.drain(..fitting);
             self.messages.push(format!(
                 "image `{path}` is larger than the {most} texels that the adapter allows; it is reduced to {} x {}",
@@ -116,7 +184,7 @@ impl<'a> Uploads<'a> {
             (Texels::Bytes(_), false) => TextureFormat::Rgba8Unorm,
         };
         let bytes: Vec<(u32, u32, Vec<u8>)> = all.iter().map(|l| (l.width, l.height, image_bytes(l))).collect();
-        let view = self.texture(path, format, &bytes);
+        let view = self.texture(name, path, format, &bytes);
         self.images.insert(key, view.clone());
         Ok(view)
     }
@@ -144,14 +212,25 @@ impl<'a> Uploads<'a> {
         if all.len() > largest.ilog2() as usize + 1 {
             return Err(RenderError::Job("the surroundings have more levels than their size allows".into()));
         }
-        let bytes: Vec<(u32, u32, Vec<u8>)> = all
-            .iter()
-            .map(|l| {
-                let halves = l.pixels.iter().flatten().flat_map(|x| half_bytes(x.max(0.0)));
-                (l.width, l.height, halves.collect())
-            })
-            .collect();
-        let view = self.texture("surroundings", TextureFormat::Rgba16Float, &bytes);
+        let mut name = Fingerprinter::new().bytes(b"surroundings");
+        for level in all {
+            let size = u64::from(level.width) << 32 | u64::from(level.height);
+            name = name.number(size).bytes(bytemuck::cast_slice(&level.pixels));
+        }
+        let name = name.finish();
+        let view = match self.kept.textures.get(name) {
+            Some(view) => view,
+            None => {
+                let bytes: Vec<(u32, u32, Vec<u8>)> = all
+                    .iter()
+                    .map(|l| {
+                        let halves = l.pixels.iter().flatten().flat_map(|x| half_bytes(x.max(0.0)));
+                        (l.width, l.height, halves.collect())
+                    })
+                    .collect();
+                self.texture(name, "surroundings", TextureFormat::Rgba16Float, &bytes)
+            }
+        };
         let sampler = self.device.device.create_sampler(&wgpu::SamplerDescriptor {
             label: Some("surroundings"),
             address_mode_u: wgpu::AddressMode::Repeat,
@@ -202,7 +281,13 @@ impl<'a> Uploads<'a> {
         Ok(sampler)
     }
 
-    fn texture(&self, what: &str, format: TextureFormat, levels: &[(u32, u32, Vec<u8>)]) -> wgpu::TextureView {
+    fn texture(
+        &mut self,
+        name: Fingerprint,
+        what: &str,
+        format: TextureFormat,
+        levels: &[(u32, u32, Vec<u8>)],
+    ) -> wgpu::TextureView {
         let extent = |width, height| wgpu::Extent3d { width, height, depth_or_array_layers: 1 };
         let texture = self.device.device.create_texture(&wgpu::TextureDescriptor {
             label: Some(what),
@@ -223,8 +308,24 @@ impl<'a> Uploads<'a> {
             let to = wgpu::TexelCopyTextureInfo { mip_level, ..texture.as_image_copy() };
             self.device.queue.write_texture(to, bytes, rows, extent(*width, *height));
         }
-        texture.create_view(&wgpu::TextureViewDescriptor::default())
+        let view = texture.create_view(&wgpu::TextureViewDescriptor::default());
+        self.kept.made += 1;
+        self.kept.textures.put(name, view.clone(), levels.iter().map(|l| l.2.len() as u64).sum());
+        view
     }
+}
+
+/// Stands for a picture and how it is read.
+fn image_name(picture: &Picture, srgb: bool) -> Fingerprint {
+    let name = Fingerprinter::new()
+        .bytes(b"image")
+        .number(u64::from(picture.width) << 32 | u64::from(picture.height))
+        .number(u64::from(srgb));
+    match &picture.texels {
+        Texels::Bytes(texels) => name.number(8).bytes(texels.as_flattened()),
+        Texels::Floats(texels) => name.number(32).bytes(bytemuck::cast_slice(texels)),
+    }
+    .finish()
 }
 
 fn image_bytes(picture: &Picture) -> Vec<u8> {

@@ -1,5 +1,6 @@
 //! Tests on whatever adapter there is, with modules and plans written by hand.
 
+mod kept;
 mod maps;
 mod materials;
 mod trouble;
