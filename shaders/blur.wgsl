@@ -50,7 +50,11 @@ fn fs_main(@builtin(position) pixel: vec4f) -> @location(0) vec4f {
     let last = vec2i(textureDimensions(source)) - 1;
     let center = vec2i(pixel.xy);
 //#if zoom == on
-    let width = WIDTH * max(light.source.w, 1.0);
+//#if axis == x
+    let width = max(WIDTH * light_zoom(light).x, 1.0);
+//#else
+    let width = max(WIDTH * light_zoom(light).y, 1.0);
+//#end
     let reach = min(i32(ceil(0.5 * width - 0.5)), MAX_REACH);
 //#else
     let width = WIDTH;

@@ -26,8 +26,8 @@ fn vs_main(@builtin(vertex_index) vertex: u32) -> @builtin(position) vec4f {
 fn fs_main(@builtin(position) pixel: vec4f) -> @location(0) vec4f {
     let last = vec2i(textureDimensions(source)) - 1;
     // The blur and one texel of the sampler.
-    let kernel = (0.5 * WIDTH * max(light.source.w, 1.0) + 1.0) * DOWNSAMPLE;
-    let reach = min(i32(ceil(kernel)), MAX_REACH);
+    let kernel = (0.5 * WIDTH * light_zoom(light) + 1.0) * DOWNSAMPLE;
+    let reach = min(vec2i(ceil(kernel)), vec2i(MAX_REACH));
     let low = clamp(vec2i(pixel.xy) * SCALE - reach, vec2i(0), last);
     let high = clamp(vec2i(pixel.xy) * SCALE + SCALE - 1 + reach, vec2i(0), last);
     var nearest = 1e9;

@@ -12,6 +12,7 @@ mod minification;
 mod penumbra;
 mod percentage;
 mod planar;
+mod precision;
 mod rectangle;
 mod splits;
 mod storage;

@@ -112,6 +112,14 @@ fn light_layer(space: LightSpace) -> i32 {
     return i32(space.projection.w);
 }
 
+/// Texels per metre along x and y of the map over those of the light's coarsest view (the root of x times y of that): what
+/// a kernel's width is multiplied by to be as wide in metres in every view. Exactly 1 where there is one view and it is
+/// square.
+fn light_zoom(space: LightSpace) -> vec2f {
+    let shape = sqrt(space.projection.x / space.projection.y);
+    return max(space.source.w, 1.0) * vec2f(shape, 1.0 / shape);
+}
+
 /// Change of the map coordinate per pixel where the point (light coordinates) changes by `change` (world). Taken from the
 /// point, which is continuous, and not from map coordinates, which jump where two pixels are seen by different views.
 fn light_map_change(space: LightSpace, position: vec3f, change: vec3f) -> vec2f {

@@ -101,14 +101,14 @@ fn moment_shadow(
     let moments = mix(decode_moments(stored), wide, moment_bias);
 //#end
     let plane = receiver_plane(space, position, normal);
-    let half_width = 0.5 * WIDTH * max(space.source.w, 1.0);
-    let slope = receiver_bounded_slope(space, plane) / vec2f(textureDimensions(map));
+    let half_width = 0.5 * WIDTH * light_zoom(space);
+    let rise = dot(half_width, receiver_bounded_slope(space, plane) / vec2f(textureDimensions(map)));
 //#if metric == linear
-    let bias = slope_bias * half_width * (slope.x + slope.y);
+    let bias = slope_bias * rise;
 //#elif metric == zw
-    let bias = slope_bias * half_width * (slope.x + slope.y) * light_scale_zw(space, position);
+    let bias = slope_bias * rise * light_scale_zw(space, position);
 //#else
-    let bias = slope_bias * half_width * (slope.x + slope.y) * light_scale_radial(space, position);
+    let bias = slope_bias * rise * light_scale_radial(space, position);
 //#end
     let lit = hamburger_visibility(moments, 2.0 * (depth - bias) - 1.0);
     let visibility = reduce_bleeding(lit, bleeding_reduction);
