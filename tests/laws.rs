@@ -14,6 +14,7 @@ mod percentage;
 mod planar;
 mod precision;
 mod rectangle;
+mod seams;
 mod splits;
 mod storage;
 mod summed;

@@ -2,7 +2,7 @@
 //! category: shadow
 //! synonyms: pcss, percentage closer soft shadows, contact hardening, penumbra, area light shadow, variable penumbra, blocker search
 //! use: receiver, disc
-//! Penumbrae as wide as the light is large: occluders around are searched for, and their mean distance says how wide to filter (percentage-closer soft shadows, Fernando 2005). Edges are sharp at contacts and soften with distance. The light's size is its `radius`, `angle`, or `width` and `height`; an edge of penumbrae that is far wider than texels shows fine noise.
+//! Penumbrae as wide as the light is large: occluders around are searched for, and their mean distance says how wide to filter (percentage-closer soft shadows, Fernando 2005). Edges are sharp at contacts and soften with distance. The light's size is its `radius`, `angle`, or `width` and `height`; penumbrae far wider than texels show fine noise. What reaches beyond the map is as its edge: on point lights, whose faces overlap by 1/34 of their width, penumbrae wider than that are cut short at the edges of faces.
 //! option search: 8 | 16 | 32 = 16 - Samples that search for occluders.
 //! option filter: 16 | 32 | 64 = 32 - Samples of the filter.
 //! option turn: pixel | off = pixel - Turn the samples from pixel to pixel, which makes noise, or not, which makes bands.

@@ -128,6 +128,13 @@ fn hardware_taps_agree_with_taps_in_the_shader() {
             let off = worst(shader.into_iter().zip(sampler));
             assert!(off < STEP, "{lamp:?} {width}: {off}");
         }
+        for (kind, params) in [("disc_shadow", "\"radius\": 4"), ("adaptive_pcf_shadow", "\"width\": 4")] {
+            let stage = under(lamp, &half_plane(4.3, 0.2), 16.0, (160, 8));
+            let mut look =
+                |taps: &str| stage.look(&mut gpu, &lamp.shadow(kind, params, &format!("\"taps\": \"{taps}\"")));
+            let off = worst(look("bilinear").into_iter().zip(look("hardware")));
+            assert!(off < STEP, "{lamp:?} {kind}: {off}");
+        }
     }
 }
 
