@@ -223,7 +223,6 @@ fn image_passes_run_in_order_and_mips_average() {
 /// kind adds up the columns.
 fn sums(kind: PassKind, factor: u32) -> Vec<Pass> {
     let mut passes = vec![moment_passes().remove(0)];
-    passes[0].targets.truncate(1);
     let ones =
         "@fragment fn fs_main(@builtin(position) p: vec4f) -> @location(0) vec2u { return vec2u(1u, u32(p.x)); }";
     // A source that is not read would be left out of the layout that it is checked against.
