@@ -3,7 +3,8 @@
 
 /// The plane through a point (light coordinates) that is equally deep everywhere: comparisons are then with the point.
 fn facing_receiver(space: LightSpace, position: vec3f) -> ReceiverPlane {
-    return ReceiverPlane(light_map_uv(space, position), position.z, vec2f(0.0), vec2f(0.0));
+    let axis = vec3f(space.world_to_light[0].z, space.world_to_light[1].z, space.world_to_light[2].z);
+    return receiver_plane(space, position, axis);
 }
 
 /// By how much (light coordinates, metres) a point moves along its normal (world; any length, either side) to the side of
@@ -20,13 +21,12 @@ fn receiver_offset(space: LightSpace, position: vec3f, normal: vec3f, size: vec2
     return n * (select(1.0, -1.0, cosine < 0.0) * texels * max(texel.x, texel.y) * sine);
 }
 
-/// `light_map_change` in texels of a map of `size`. Mixed and not selected by the kind of light, because conditions of loops
-/// may depend on it: Mesa 22.3's lavapipe crashes where those depend on a value selected by a uniform.
+/// By how many texels of a map of `size` a point (light coordinates) and the one that is moved by `change` (world) lie apart:
+/// a footprint that conditions of loops may depend on. Mesa 22.3's lavapipe crashes where those depend on a vector that a
+/// uniform selects, as `light_map_change` does; the difference is known to some 1e-4 texel.
 fn texel_change(space: LightSpace, position: vec3f, change: vec3f, size: vec2f) -> vec2f {
-    let moved = (space.world_to_light * vec4f(change, 0.0)).xyz;
-    let w = mix(1.0, max(position.z, 1e-6), space.projection.z);
-    let ray = (moved.xy - position.xy * (moved.z * space.projection.z / w)) / w;
-    return ray * space.projection.xy * vec2f(0.5, -0.5) * size;
+    let moved = position + (space.world_to_light * vec4f(change, 0.0)).xyz;
+    return (light_map_uv(space, moved) - light_map_uv(space, position)) * size;
 }
 
 /// What z / w and radial depth are known to: two steps of float32 below 1, from the stored and from the compared value.
@@ -34,9 +34,11 @@ const METRIC_ROUNDING: f32 = 2.4e-7;
 
 /// Where the light's ray through `uv` meets the plane (light coordinates), `margin` of linear depth nearer to the light.
 fn receiver_nearer(space: LightSpace, plane: ReceiverPlane, uv: vec2f, margin: f32) -> vec3f {
-    let distance = receiver_distance(space, plane, uv) - margin / space.depth.z;
-    let ray = (uv - 0.5) * vec2f(2.0, -2.0) / space.projection.xy;
-    return vec3f(ray * select(1.0, distance, space.projection.z > 0.5), distance);
+    let there = receiver_position(space, plane, uv);
+    let distance = there.z - margin / space.depth.z;
+    // The ray runs through the light (perspective) or along its axis (parallel).
+    let scale = select(1.0, distance / max(there.z, 1e-6), space.projection.z > 0.5);
+    return vec3f(there.xy * scale, distance);
 }
 
 /// `receiver_depth_zw` with a margin of linear depth.

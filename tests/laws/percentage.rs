@@ -338,3 +338,35 @@ fn shadows_of_several_metrics_fit_into_one_shader() {
         "{wgsl}"
     );
 }
+
+/// Every way to compare works on a map that its light warps: away from the edge what is lit is lit, and what is dark dark.
+#[test]
+fn comparisons_work_on_warped_maps() {
+    let Some(mut gpu) = gpu() else { return };
+    let stage = plate(0.31, 0.31, 0.5);
+    for (shadow, options) in [
+        ("hard_shadow", ""),
+        ("pcf_shadow", ""),
+        ("pcf_shadow", "\"compare\": \"point\""),
+        ("pcf_shadow", "\"compare\": \"offset\""),
+        ("pcf_shadow", "\"metric\": \"radial\", \"taps\": \"hardware\""),
+        ("disc_shadow", ""),
+        ("disc_shadow", "\"taps\": \"bilinear\""),
+        ("adaptive_pcf_shadow", ""),
+        ("adaptive_pcf_shadow", "\"taps\": \"hardware\""),
+        ("pcss_shadow", ""),
+    ] {
+        let graph = light("directional_light", "\"direction\": (0, -1, 0), \"angle\": 0.5", shadow, "", options)
+            .replacen("}), \"shadow\"", "}, options: {\"warp\": \"perspective\"}), \"shadow\"", 1);
+        let shader = visibility(&graph);
+        let values = stage.look(&mut gpu, &shader);
+        for (point, lit) in stage.on_ground(&values) {
+            let beyond = point.x - 0.31;
+            if beyond.abs() > 0.12 {
+                let expected = if beyond > 0.0 { 1.0 } else { 0.0 };
+                assert!((lit - expected).abs() < 1e-3, "{shadow} {options} at {point}: {lit} is not {expected}");
+            }
+        }
+        assert!(shader.module.wgsl.contains(".warp.x"), "the map is warped");
+    }
+}

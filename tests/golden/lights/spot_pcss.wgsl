@@ -71,7 +71,7 @@ struct SpotLight {
 }
 
 struct SeenSource {
-    /// Offsets of the map coordinate for the ends of its half axes, at a reach of 1.
+    /// Its half axes, for a reach of 1: metres across the light's axis at the distance of the shaded point.
     first: vec2f,
     second: vec2f,
     /// 1 an ellipse, 0 a rectangle.
@@ -276,7 +276,7 @@ fn pcss_shadow(
     var found = 0.0;
     for (var i = 0; i < SEARCH; i++) {
         let offset = on_source(source, vogel_sample(i, SEARCH, turn)) * reach;
-        let texel = clamp(floor((plane.uv + offset) * size), vec2f(0.0), size - 1.0);
+        let texel = clamp(floor(light_map_uv(space, position + vec3f(offset, 0.0)) * size), vec2f(0.0), size - 1.0);
         let uv = (texel + 0.5) / size;
         let stored = textureSampleLevel(map, map_sampler, uv, layer, 0);
         let nearer = select(0.0, 1.0, stored < compared_depth(space, plane, size, uv, margin));
@@ -286,27 +286,29 @@ fn pcss_shadow(
     let occluder = space.depth.x + total / max(found, 1.0) / space.depth.z;
     // The samples of the filter are turned against those of the search.
     let width = penumbra_reach(space, max(occluder, nearest_distance), position.z);
-    let across = max(length(source.first * size), length(source.second * size)) * width;
-    let within = margin_within(margin, across * mix(1.4142136, 1.0, source.round) + 1.0);
+    // Metres to texels: how far the ends of its axes lie on the map.
+    let first = length(light_map_uv(space, position + vec3f(source.first * width, 0.0)) - plane.uv);
+    let second = length(light_map_uv(space, position + vec3f(source.second * width, 0.0)) - plane.uv);
+    let texels = max(first, second) * max(size.x, size.y);
+    let within = margin_within(margin, texels * mix(1.4142136, 1.0, source.round) + 1.0);
     var sum = 0.0;
     for (var i = 0; i < FILTER; i++) {
         let offset = on_source(source, vogel_sample(i, FILTER, turn + 0.5)) * width;
-        sum += compare_blended(space, plane, map, blending_sampler, plane.uv + offset, within);
+        sum += compare_blended(space, plane, map, blending_sampler, light_map_uv(space, position + vec3f(offset, 0.0)), within);
     }
     let visibility = select(sum / f32(FILTER), 1.0, found < 0.5);
     return select(visibility, 1.0, receives < 0.5 || outside_light_map(space, position, plane.uv));
 }
 
 fn source_seen(space: LightSpace, position: vec3f) -> SeenSource {
-    let half = space.source.xy;
-    let per_ray = vec2f(0.5, -0.5) * space.projection.xy;
+    let half = space.source.xy * mix(1.0, position.z, space.projection.z);
     let ray = light_ray(space, position) * (space.projection.z * space.source.z);
     let radius = length(ray);
     let outwards = select(vec2f(1.0, 0.0), ray / max(radius, 1e-12), radius > 1e-6);
     let stretch = sqrt(1.0 + radius * radius);
     let first = vec2f(outwards.x, outwards.y) * stretch;
     let second = vec2f(-outwards.y, outwards.x);
-    return SeenSource(first * half * per_ray, second * half * per_ray, space.source.z);
+    return SeenSource(first * half, second * half, space.source.z);
 }
 
 fn on_source(source: SeenSource, polar: vec2f) -> vec2f {

@@ -146,10 +146,8 @@ fn receiver_curvature(space: LightSpace, plane: ReceiverPlane, size: vec2f, texe
 }
 
 fn texel_change(space: LightSpace, position: vec3f, change: vec3f, size: vec2f) -> vec2f {
-    let moved = (space.world_to_light * vec4f(change, 0.0)).xyz;
-    let w = mix(1.0, max(position.z, 1e-6), space.projection.z);
-    let ray = (moved.xy - position.xy * (moved.z * space.projection.z / w)) / w;
-    return ray * space.projection.xy * vec2f(0.5, -0.5) * size;
+    let moved = position + (space.world_to_light * vec4f(change, 0.0)).xyz;
+    return (light_map_uv(space, moved) - light_map_uv(space, position)) * size;
 }
 
 fn receiver_margin(space: LightSpace, plane: ReceiverPlane, map: texture_depth_2d_array, bias: f32) -> ReceiverMargin {
