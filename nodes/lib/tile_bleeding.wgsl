@@ -2,11 +2,12 @@
 
 /// The most light that a variance bound lets into full shadow, from the depths that occur in a tile: with the nearest
 /// occluder A, the farthest B and the receiver t, (r / (r + 2))^2 for r = (B - A) / (t - B), however many lie between. Depths that
-/// are joined to the receiver's without a gap are its own surface. `tile`: nearest and farthest depth, and 32 bits, 16 in
+/// are joined to the receiver's without a gap are its own surface, and so are those up to `rise` nearer to the light, which its own
+/// plane spans within the tile. `tile`: nearest and farthest depth, and 32 bits, 16 in
 /// each of two numbers, that say which of as many steps between them occur.
-fn tile_bleeding(tile: vec4f, depth: f32) -> f32 {
+fn tile_bleeding(tile: vec4f, depth: f32, rise: f32) -> f32 {
     let step = (tile.y - tile.x) / 32.0;
-    let place = (depth - tile.x) / max(step, 1e-9);
+    let place = (depth - rise - tile.x) / max(step, 1e-9);
     let seen = u32(tile.z) | (u32(tile.w) << 16u);
     // Below the receiver's step: first what is joined to it, then a gap, then occluders. Behind all steps, all are.
     let own = u32(clamp(place, 0.0, 31.0));

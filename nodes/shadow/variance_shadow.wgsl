@@ -19,7 +19,7 @@
 //! option anisotropy: 1 | 4 | 8 | 16 = 16 - Longest footprint, in widths, that is followed at grazing views. With hardware sampling, more than 1 needs trilinear and mips.
 //! option slope_variance: on | off = on - Count the slope of a surface within one texel as variance, which spares slopes from shadowing themselves.
 //! option least: clamp | bias = clamp - Whether the minimum variance takes the place of smaller ones or is added to all.
-//! option bleeding: fixed | measured = fixed - One amount of reduction everywhere, or for each tile of 16 by 16 texels the least that is sure to remove bleeding, from the depths that occur there: nothing where there is one occluder. It is never too light, and too dark by no more than that amount.
+//! option bleeding: fixed | measured = fixed - One amount of reduction everywhere, or for each tile of 16 by 16 texels the least that is sure to remove bleeding, from the depths that occur there: nothing where there is one occluder. Full shadow is dark, but for occluders within what the receiver's own slope spans in a tile; elsewhere it is too dark by no more than that amount.
 //! map map: moments(size=$size, slope=$slope_variance, metric=$metric, cull=$cull, samples=$samples, second=$second, range=$range, format=$format) > downsample(scale=$downsample, format=$format) > blur(width=$width, weights=$weights, format=$format) > mips(levels=$mips, format=$format)
 //! map tiles: moments(size=$size, slope=off, metric=$metric, cull=$cull) > occupancy(width=$width, downsample=$downsample)
 //! sampler map_sampler: filter=$filter address=clamp anisotropy=$anisotropy
@@ -31,6 +31,10 @@
 const ANISOTROPY: f32 = 16.0;
 
 //#end
+//#end
+//#if bleeding == measured
+const WIDTH: f32 = 5.0;
+
 //#end
 /// point (point world; = @position_world; hidden): The shaded point.
 /// space (space; hidden): The light's space.
@@ -71,6 +75,9 @@ fn variance_shadow(
 //#end
     receives: f32,
 ) -> f32 {
+//#if bleeding == measured
+    let normal = geometric_normal(point);
+//#end
     let position = light_position(space, point);
     let uv = light_map_uv(space, position);
     let layer = light_layer(space);
@@ -134,7 +141,17 @@ fn variance_shadow(
 //#if bleeding == measured
     let tile_size = vec2i(textureDimensions(tiles));
     let tile = clamp(vec2i(uv * vec2f(tile_size)), vec2i(0), tile_size - 1);
-    let amount = tile_bleeding(textureLoad(tiles, tile, layer, 0), depth);
+    // How far the receiver's own plane may come towards the light within the tile and the reach of the blur around it.
+    let plane = receiver_plane(space, position, normal);
+    let across = 1.0 / vec2f(tile_size) + (0.5 * WIDTH * light_zoom(space) + 1.0) / vec2f(textureDimensions(map));
+//#if metric == linear
+    let rise = dot(receiver_bounded_slope(space, plane), across);
+//#elif metric == zw
+    let rise = dot(receiver_bounded_slope(space, plane), across) * light_scale_zw(space, position);
+//#else
+    let rise = dot(receiver_bounded_slope(space, plane), across) * light_scale_radial(space, position);
+//#end
+    let amount = tile_bleeding(textureLoad(tiles, tile, layer, 0), depth, rise);
     let visibility = reduce_bleeding(bound, amount);
 //#else
     let visibility = reduce_bleeding(bound, bleeding_reduction);

@@ -120,6 +120,11 @@ fn light_layer(space: LightSpace) -> i32 {
     return i32(space.projection.w);
 }
 
+fn light_zoom(space: LightSpace) -> vec2f {
+    let shape = sqrt(space.projection.x / space.projection.y);
+    return max(space.source.w, 1.0) * vec2f(shape, 1.0 / shape);
+}
+
 fn light_map_change(space: LightSpace, position: vec3f, change: vec3f) -> vec2f {
     let moved = (space.world_to_light * vec4f(change, 0.0)).xyz;
     let perspective = (moved.xy - light_ray(space, position) * moved.z) / max(position.z, 1e-6);
@@ -260,9 +265,9 @@ fn moment_shadow(
     let wide = vec4f(0.0, 0.375, 0.0, 0.375);
     let moments = mix(stored, wide, moment_bias);
     let plane = receiver_plane(space, position, normal);
-    let half_width = 0.5 * WIDTH * max(space.source.w, 1.0);
-    let slope = receiver_bounded_slope(space, plane) / vec2f(textureDimensions(map));
-    let bias = slope_bias * half_width * (slope.x + slope.y);
+    let half_width = 0.5 * WIDTH * light_zoom(space);
+    let rise = dot(half_width, receiver_bounded_slope(space, plane) / vec2f(textureDimensions(map)));
+    let bias = slope_bias * rise;
     let lit = hamburger_visibility(moments, 2.0 * (depth - bias) - 1.0);
     let visibility = reduce_bleeding(lit, bleeding_reduction);
     return select(visibility, 1.0, receives < 0.5 || outside_light_map(space, position, uv));

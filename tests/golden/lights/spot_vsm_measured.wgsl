@@ -45,6 +45,17 @@ struct LightSpace {
     warp: vec4f,
 }
 
+struct ReceiverPlane {
+    /// Map coordinate of the shaded point.
+    uv: vec2f,
+    /// Distance of the shaded point along the light's axis, metres.
+    distance: f32,
+    /// Change over the whole map: of distance in metres (parallel) or of 1 / distance relative to here (perspective).
+    slope: vec2f,
+    /// Distance per metre across, at the shaded point.
+    rise: vec2f,
+}
+
 struct MapFootprint {
     level: f32,
     taps: f32,
@@ -81,6 +92,9 @@ fn cone_falloff(cosine: f32, inner_angle: f32, outer_angle: f32) -> f32 {
     return smoothstep(outer, inner, cosine);
 }
 
+const MAX_RETREAT: f32 = 8.0;
+const MIN_RECEIVER_COSINE: f32 = 0.015625;
+
 fn light_position(space: LightSpace, point: vec3f) -> vec3f {
     return (space.world_to_light * vec4f(point, 1.0)).xyz;
 }
@@ -105,6 +119,11 @@ fn light_layer(space: LightSpace) -> i32 {
     return i32(space.projection.w);
 }
 
+fn light_zoom(space: LightSpace) -> vec2f {
+    let shape = sqrt(space.projection.x / space.projection.y);
+    return max(space.source.w, 1.0) * vec2f(shape, 1.0 / shape);
+}
+
 fn light_map_change(space: LightSpace, position: vec3f, change: vec3f) -> vec2f {
     let moved = (space.world_to_light * vec4f(change, 0.0)).xyz;
     let perspective = (moved.xy - light_ray(space, position) * moved.z) / max(position.z, 1e-6);
@@ -114,6 +133,33 @@ fn light_map_change(space: LightSpace, position: vec3f, change: vec3f) -> vec2f 
 
 fn outside_light_map(space: LightSpace, position: vec3f, uv: vec2f) -> bool {
     return position.z < space.depth.x || any(uv < vec2f(0.0)) || any(uv > vec2f(1.0));
+}
+
+fn receiver_plane(space: LightSpace, position: vec3f, normal: vec3f) -> ReceiverPlane {
+    let perspective = space.projection.z > 0.5;
+    let n = (space.world_to_light * vec4f(normal, 0.0)).xyz;
+    // The ray through the point, scaled to one metre along the axis, so that n.ray = n.position / position.z.
+    let ray = vec3f(select(vec2f(0.0), light_ray(space, position), perspective), 1.0);
+    let facing = dot(n, ray);
+    let least = MIN_RECEIVER_COSINE * length(n) * length(ray);
+    // A normal of length zero says nothing about the plane: it counts as facing the light.
+    let bounded = max(max(abs(facing), least), 1e-30) * select(1.0, -1.0, facing < 0.0);
+    let ray_per_uv = vec2f(2.0, -2.0) / space.projection.xy;
+    return ReceiverPlane(light_map_uv(space, position), position.z, n.xy * ray_per_uv / bounded, n.xy / bounded);
+}
+
+fn receiver_slope(space: LightSpace, plane: ReceiverPlane) -> vec2f {
+    return abs(plane.slope) * select(1.0, plane.distance, space.projection.z > 0.5) * space.depth.z;
+}
+
+fn receiver_bounded_slope(space: LightSpace, plane: ReceiverPlane) -> vec2f {
+    let across = select(1.0, plane.distance, space.projection.z > 0.5);
+    let most = MAX_RETREAT * 2.0 / space.projection.xy * across * space.depth.z;
+    return min(receiver_slope(space, plane), most);
+}
+
+fn geometric_normal(point: vec3f) -> vec3f {
+    return cross(dpdx(point), dpdy(point));
 }
 
 fn chebyshev_bound(variance: f32, behind: f32) -> f32 {
@@ -152,9 +198,9 @@ fn sample_footprint(
     return sum / footprint.taps;
 }
 
-fn tile_bleeding(tile: vec4f, depth: f32) -> f32 {
+fn tile_bleeding(tile: vec4f, depth: f32, rise: f32) -> f32 {
     let step = (tile.y - tile.x) / 32.0;
-    let place = (depth - tile.x) / max(step, 1e-9);
+    let place = (depth - rise - tile.x) / max(step, 1e-9);
     let seen = u32(tile.z) | (u32(tile.w) << 16u);
     // Below the receiver's step: first what is joined to it, then a gap, then occluders. Behind all steps, all are.
     let own = u32(clamp(place, 0.0, 31.0));
@@ -186,6 +232,7 @@ fn spot_light(
 }
 
 const ANISOTROPY: f32 = 16;
+const WIDTH: f32 = 5;
 
 fn variance_shadow(
     point: vec3f,
@@ -196,6 +243,7 @@ fn variance_shadow(
     minimum_variance: f32,
     receives: f32,
 ) -> f32 {
+    let normal = geometric_normal(point);
     let position = light_position(space, point);
     let uv = light_map_uv(space, position);
     let layer = light_layer(space);
@@ -215,7 +263,11 @@ fn variance_shadow(
     let bound = chebyshev_bound(variance, max(depth - mean, 0.0));
     let tile_size = vec2i(textureDimensions(tiles));
     let tile = clamp(vec2i(uv * vec2f(tile_size)), vec2i(0), tile_size - 1);
-    let amount = tile_bleeding(textureLoad(tiles, tile, layer, 0), depth);
+    // How far the receiver's own plane may come towards the light within the tile and the reach of the blur around it.
+    let plane = receiver_plane(space, position, normal);
+    let across = 1.0 / vec2f(tile_size) + (0.5 * WIDTH * light_zoom(space) + 1.0) / vec2f(textureDimensions(map));
+    let rise = dot(receiver_bounded_slope(space, plane), across);
+    let amount = tile_bleeding(textureLoad(tiles, tile, layer, 0), depth, rise);
     let visibility = reduce_bleeding(bound, amount);
     return select(visibility, 1.0, receives < 0.5 || outside_light_map(space, position, uv));
 }
