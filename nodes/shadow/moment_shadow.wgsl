@@ -43,7 +43,7 @@ const ANISOTROPY: f32 = 16.0;
 //#else
 /// moment_bias (number; = 0.00006; 0..0.1): Part of the moments that is replaced by those of a wide distribution, which hides rounding. More lets more light through at contacts.
 //#end
-/// slope_bias (scalar; = 1; 0..): How far the receiver is moved towards the light, in half widths of the blur along its slope. Without it, slopes shadow themselves.
+/// slope_bias (scalar; = 1; 0..): How far the receiver is moved towards the light, in half widths of the blur along its slope. Without it, slopes shadow themselves; at grazing light it loosens a shadow from what casts it.
 /// bleeding_reduction (scalar; = 0.02; 0..0.99): Lit parts up to this count as dark, the rest is stretched.
 /// receives (scalar; = @receives; hidden): 0 where the object takes no shadows.
 /// -> visibility (scalar visibility): 1 lit, 0 in shadow.
