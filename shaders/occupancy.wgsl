@@ -1,11 +1,11 @@
 //! label: Depths of a tile
 //! kind: image
 //! use: fullscreen, light_space
-//! Which depths occur in each tile of a moment map and in what a filter reaches around it: the nearest, the farthest, and which of 32 even steps between them, in two numbers of 16 bits. It tells how far occluders lie apart, and so how much light can bleed.
+//! Which depths occur in each tile of a moment map and in what a filter reaches around it: the nearest, the farthest, and which of 32 even steps between them, in two numbers of 16 bits, divided by 65535. It tells how far occluders lie apart, and so how much light can bleed.
 //! option width: 1 | 3 | 5 | 7 | 9 | 11 | 13 | 15 | 17 | 19 | 21 | 23 | 25 = 5 - Texels across the blur of the map, in the light's coarsest view.
 //! option downsample: 1 | 2 | 4 = 1 - Texels of the source on a side of a texel that the blur sees.
 //! option scale: 16 = 16 - Texels of the source on a side of a tile.
-//! target: rgba32float
+//! target: rgba32float | rgba16unorm
 //! reads: light
 
 @group(0) @binding(0) var source: texture_2d<f32>;
@@ -47,5 +47,5 @@ fn fs_main(@builtin(position) pixel: vec4f) -> @location(0) vec4f {
             seen |= 1u << u32(clamp((depth - nearest) * steps, 0.0, 31.0));
         }
     }
-    return vec4f(nearest, farthest, f32(seen & 0xffffu), f32(seen >> 16u));
+    return vec4f(nearest, farthest, f32(seen & 0xffffu) / 65535.0, f32(seen >> 16u) / 65535.0);
 }

@@ -4,11 +4,12 @@
 /// occluder A, the farthest B and the receiver t, (r / (r + 2))^2 for r = (B - A) / (t - B), however many lie between. Depths that
 /// are joined to the receiver's without a gap are its own surface, and so are those up to `rise` nearer to the light, which its own
 /// plane spans within the tile. `tile`: nearest and farthest depth, and 32 bits, 16 in
-/// each of two numbers, that say which of as many steps between them occur.
+/// each of two numbers divided by 65535, that say which of as many steps between them occur.
 fn tile_bleeding(tile: vec4f, depth: f32, rise: f32) -> f32 {
     let step = (tile.y - tile.x) / 32.0;
     let place = (depth - rise - tile.x) / max(step, 1e-9);
-    let seen = u32(tile.z) | (u32(tile.w) << 16u);
+    let bits = vec2u(tile.zw * 65535.0 + 0.5);
+    let seen = bits.x | (bits.y << 16u);
     // Below the receiver's step: first what is joined to it, then a gap, then occluders. Behind all steps, all are.
     let own = u32(clamp(place, 0.0, 31.0));
     let empty = ~(seen | (1u << own)) & (0xffffffffu >> (31u - own));

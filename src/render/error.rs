@@ -94,6 +94,9 @@ impl RenderError {
             Self::OutOfMemory(_) | Self::TooLarge { .. } => {
                 Some("lower the size of the picture or of its maps, or the number of samples".into())
             }
+            Self::Unsupported(what) if what.contains("formats") => {
+                Some("choose another `format` in the options of what asks for the map; `auto` takes what there is".into())
+            }
             Self::DeviceLost(_) => Some("try again, with a smaller picture or on another adapter".into()),
             _ => None,
         }

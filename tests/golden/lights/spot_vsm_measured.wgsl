@@ -201,7 +201,8 @@ fn sample_footprint(
 fn tile_bleeding(tile: vec4f, depth: f32, rise: f32) -> f32 {
     let step = (tile.y - tile.x) / 32.0;
     let place = (depth - rise - tile.x) / max(step, 1e-9);
-    let seen = u32(tile.z) | (u32(tile.w) << 16u);
+    let bits = vec2u(tile.zw * 65535.0 + 0.5);
+    let seen = bits.x | (bits.y << 16u);
     // Below the receiver's step: first what is joined to it, then a gap, then occluders. Behind all steps, all are.
     let own = u32(clamp(place, 0.0, 31.0));
     let empty = ~(seen | (1u << own)) & (0xffffffffu >> (31u - own));
