@@ -15,7 +15,7 @@ mod planar;
 mod precision;
 mod rectangle;
 mod seams;
-mod splits;
+pub(crate) mod splits;
 mod storage;
 mod summed;
 mod surfaces;
