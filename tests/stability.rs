@@ -8,10 +8,14 @@
 mod bench;
 mod bias;
 mod bleeding;
+mod claims;
 mod depths;
+mod exponentials;
 mod formats;
+mod moments4;
 mod motion;
 mod places;
 mod scales;
 mod splits;
 mod table;
+mod timing;

@@ -101,3 +101,11 @@ fn biases_detach_shadows_by_their_length_in_world_units() {
     }
     table.check(&gpu);
 }
+
+/// The darkest pixel of a lit slope by an unblurred variance map that is fetched once, bilinearly.
+pub(super) fn unbiased_variance(gpu: &mut Gpu, (x, z): (f64, f64)) -> f64 {
+    let (sun, at) = Lamp::Sun.kind();
+    let options =
+        "\"size\": \"256\", \"width\": \"3\", \"mips\": \"off\", \"filter\": \"linear\", \"anisotropy\": \"1\"";
+    least(&slope(x, z).look(gpu, &naive(&light(sun, at, "variance_shadow", "", options))))
+}

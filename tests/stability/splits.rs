@@ -66,7 +66,7 @@ pub(super) fn seams(gpu: &mut Gpu, choice: &str, posts: bool) -> [usize; 4] {
     let stage = stage(posts);
     let index = stage.look(gpu, &shader("pixel", "split_index", ""));
     let kinds = kinds_in_quads(&index, SIZE);
-    let explicit = "\"size\": \"512\", \"anisotropy\": \"1\"";
+    let explicit = "\"size\": \"512\", \"anisotropy\": \"1\", \"sampling\": \"hardware\"";
     let reference = stage.look(gpu, &shader(choice, "variance_shadow", explicit));
     let implicit = stage.look(gpu, &shader(choice, "implicit_variance", ""));
     picture(&format!("seams_{choice}_{posts}_explicit"), &reference, SIZE);

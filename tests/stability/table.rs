@@ -28,7 +28,11 @@ impl Bound {
         }
     }
 
-    fn text(self) -> String {
+    pub(super) fn holds(self, x: f64) -> bool {
+        self.excess(x) <= 0.0
+    }
+
+    pub(super) fn text(self) -> String {
         match self {
             Self::Most(x) => format!("<= {}", figure(x)),
             Self::Least(x) => format!(">= {}", figure(x)),
