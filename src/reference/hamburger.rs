@@ -86,6 +86,7 @@ mod tests {
                 worst = worst.max(off);
             }
         }
-        assert!(worst > 0.01, "three occluders bleed: {worst}");
+        // Law T15: the error of three depths is small mostly, but not nothing.
+        assert!(worst > 0.005, "three occluders bleed: {worst}");
     }
 }
