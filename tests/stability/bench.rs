@@ -10,8 +10,12 @@ use shadetree::render::Gpu;
 use crate::stage::Stage;
 use crate::support::{catalog, graph_file, graph_text, prove, show};
 
-/// Every shadow node that works with its defaults on every light.
+/// Shadows from maps of depth or its moments.
 pub(super) const SHADOWS: [&str; 3] = ["hard_shadow", "pcf_shadow", "variance_shadow"];
+
+/// Shadows from maps that hold something else than depth, or more: what goes wrong with depth may grow in them.
+pub(super) const DERIVED: [&str; 4] =
+    ["exponential_shadow", "exponential_variance_shadow", "moment_shadow", "summed_area_shadow"];
 
 /// Shadow nodes that do what textbooks warn of: they show the failures that the nodes of the catalogue avoid.
 const NAIVE: [(&str, &str); 3] = [

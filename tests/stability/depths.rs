@@ -5,7 +5,7 @@ use shadetree::reference::{Weights, chebyshev, edge_visibility, kernel};
 use shadetree::render::Gpu;
 use shadetree::scene::{Mesh, Shape};
 
-use super::bench::{Numbers, SHADOWS, least, most};
+use super::bench::{DERIVED, Numbers, SHADOWS, least, most};
 use super::bleeding::WEIGHTS;
 use super::table::{Bound, Table};
 use crate::laws::lamp::{CLOSED_FORM, Lamp, PLAIN, Plate, SIDE, pcf, under, vsm};
@@ -22,7 +22,7 @@ fn empty_maps_hold_the_far_plane() {
         (2e-3, 0.0),
     );
     for lamp in Lamp::BOTH {
-        for shadow in SHADOWS {
+        for shadow in SHADOWS.into_iter().chain(DERIVED) {
             let mut ground = Item::plane([16.0, 16.0], DMat4::IDENTITY);
             ground.casts = false;
             let stage = Stage::new(vec![ground], View::down((0.0, 0.0), 0.8, 1.6, (32, 32)));
@@ -182,6 +182,13 @@ fn broken_triangles_leave_no_mark() {
             table.row(format!("{what}, {shadow}: not a number"), "none", worst[0], Bound::Most(0.0));
             table.row(format!("{what}, {shadow}: outside"), "none", worst[1], Bound::Most(0.0));
             table.wide(format!("{what}, {shadow}: change"), "none", worst[2], Bound::Most(0.0));
+        }
+    }
+    for (what, mesh) in broken() {
+        for shadow in DERIVED {
+            let [strange, _, change] = harm(&mut gpu, Lamp::Spot, shadow, mesh.clone());
+            table.row(format!("{what}, {shadow}: not a number"), "none", strange, Bound::Most(0.0));
+            table.wide(format!("{what}, {shadow}: change"), "none", change, Bound::Most(0.0));
         }
     }
     for shadow in SHADOWS {
