@@ -2,7 +2,7 @@
 //! kind: geometry
 //! use: light_space
 //! Depth of the nearest surface, seen from a light: 0 at its near plane, 1 at its far plane.
-//! option size: 256 | 512 | 1024 | 2048 | 4096 = 1024 - Texels on a side.
+//! option size: 64 | 128 | 256 | 512 | 1024 | 2048 | 4096 = 1024 - Texels on a side.
 //! option metric: linear | zw | radial = linear - How depth is measured: evenly along the light's axis, as projection matrices leave it, or by the distance from the light. All are linear in parallel light.
 //! option cull: none | front | back = none - Sides of triangles that are not drawn: none, those that face the light, or those that face away from it.
 //! target: depth32float

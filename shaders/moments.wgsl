@@ -2,7 +2,7 @@
 //! kind: geometry
 //! use: light_space, texel_variance, split_halves
 //! Mean and mean square of depth, seen from a light: what a variance shadow map filters (Donnelly and Lauritzen 2006, section 3).
-//! option size: 256 | 512 | 1024 | 2048 | 4096 = 1024 - Texels on a side.
+//! option size: 64 | 128 | 256 | 512 | 1024 | 2048 | 4096 = 1024 - Texels on a side.
 //! option slope: off | on = on - Add the variance of depth inside one texel of a sloping surface.
 //! option metric: linear | zw | radial = linear - How depth is measured: evenly along the light's axis, as projection matrices leave it, or by the distance from the light. All are linear in parallel light.
 //! option cull: none | front | back = none - Sides of triangles that are not drawn: none, those that face the light, or those that face away from it.

@@ -2,7 +2,7 @@
 //! kind: geometry
 //! use: light_space, hamburger
 //! Depth from -1 to 1 and its second, third and fourth power, seen from a light: what a moment shadow map filters (Peters and Klein 2015).
-//! option size: 256 | 512 | 1024 | 2048 | 4096 = 1024 - Texels on a side.
+//! option size: 64 | 128 | 256 | 512 | 1024 | 2048 | 4096 = 1024 - Texels on a side.
 //! option metric: linear | zw | radial = linear - How depth is measured: evenly along the light's axis, as projection matrices leave it, or by the distance from the light.
 //! option cull: none | front | back = none - Sides of triangles that are not drawn.
 //! option samples: 1 | 4 = 1 - Places within a texel at which triangles are drawn, where the format can be resolved to their mean.

@@ -2,7 +2,7 @@
 //! kind: geometry
 //! use: light_space, texel_variance, exponential_warp
 //! Exponentials of depth, seen from a light: what exponential shadow maps (Annen et al. 2008; Salvi 2008) and exponential variance shadow maps (Lauritzen and McCool 2008) filter.
-//! option size: 256 | 512 | 1024 | 2048 | 4096 = 1024 - Texels on a side.
+//! option size: 64 | 128 | 256 | 512 | 1024 | 2048 | 4096 = 1024 - Texels on a side.
 //! option moments: mean | one | two = mean - The exponential alone; with its square; or both of the rising and of the falling exponential.
 //! option exponent: 5 | 5.54 | 10 | 11 | 15 | 20 | 30 | 40 | 42 | 80 = 40 - How fast it rises: e^(c depth) for the mean, e^(c (2 depth - 1)) for pairs. No more than the format holds: 42 (80 alone) in 32 bits, 5.54 (11 alone) in 16.
 //! option falling: 5 | 5.54 | 10 | 20 | 40 = 5 - The same of the falling exponential.

@@ -6,7 +6,7 @@
 //! option most: 1 | 2 | 4 | 8 | 16 = 8 - Most taps along each side of the footprint. Beyond, they stand apart.
 //! option taps: bilinear | hardware = bilinear - How a tap reads: four texels blended after exact comparisons, or four blended by the sampler with one biased comparison.
 //! option cull: none | front | back = none - Sides of triangles that are left out.
-//! option size: 256 | 512 | 1024 | 2048 | 4096 = 2048 - Texels on a side of the map.
+//! option size: 64 | 128 | 256 | 512 | 1024 | 2048 | 4096 = 2048 - Texels on a side of the map.
 //! map map: depth(size=$size, cull=$cull)
 //! sampler map_sampler: compare=on filter=nearest address=clamp
 //! sampler blending_sampler: compare=on filter=linear address=clamp

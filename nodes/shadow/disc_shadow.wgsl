@@ -7,7 +7,7 @@
 //! option turn: pixel | off = pixel - Turn the samples from pixel to pixel, which makes noise, or not, which makes bands.
 //! option taps: nearest | bilinear | hardware = nearest - How a sample reads: the nearest texel, four texels blended after exact comparisons, or four blended by the sampler with one biased comparison.
 //! option cull: none | front | back = none - Sides of triangles that are left out.
-//! option size: 256 | 512 | 1024 | 2048 | 4096 = 2048 - Texels on a side of the map.
+//! option size: 64 | 128 | 256 | 512 | 1024 | 2048 | 4096 = 2048 - Texels on a side of the map.
 //! map map: depth(size=$size, cull=$cull)
 //! sampler map_sampler: compare=on filter=nearest address=clamp
 //! sampler blending_sampler: compare=on filter=linear address=clamp

@@ -9,7 +9,7 @@
 //! option format: auto | float32 | float16 = float32 - Bits of each number. auto takes what the device can filter, with exponents of at most 5.54, as it may be 16. Devices that cannot filter 32 bits need float16 or manual sampling.
 //! option width: 1 | 3 | 5 | 7 | 9 | 11 | 13 | 15 | 17 | 19 | 21 | 23 | 25 = 5 - Texels across the blur of the map, in the coarsest view of a light with splits: the others are blurred as widely in metres.
 //! option weights: gaussian | box | tent = gaussian - Shape of the blur.
-//! option size: 256 | 512 | 1024 | 2048 | 4096 = 1024 - Texels on a side of the map.
+//! option size: 64 | 128 | 256 | 512 | 1024 | 2048 | 4096 = 1024 - Texels on a side of the map.
 //! option downsample: 1 | 2 | 4 = 1 - Texels that are averaged before the blur, on a side.
 //! option samples: 1 | 4 = 1 - Places within a texel at which occluders are drawn; where the format cannot be resolved, one.
 //! option cull: none | front | back = none - Sides of triangles that cast no shadow: none, those that face the light (shadows shrink by the thickness of what casts them), or those that face away.

@@ -5,7 +5,7 @@
 //! Shadow by one comparison with the nearest texel of a depth map (Williams 1978): cheap, with stairs at the edges. The comparison is with the receiving plane at that texel's centre, so no bias has to be tuned.
 //! option metric: linear | zw | radial = linear - How depth is measured: evenly along the light's axis, as projection matrices leave it, or by the distance from the light. All are linear in parallel light.
 //! option cull: none | front | back = none - Sides of triangles that are left out.
-//! option size: 256 | 512 | 1024 | 2048 | 4096 = 2048 - Texels on a side of the map.
+//! option size: 64 | 128 | 256 | 512 | 1024 | 2048 | 4096 = 2048 - Texels on a side of the map.
 //! map map: depth(size=$size, metric=$metric, cull=$cull)
 //! sampler map_sampler: compare=on filter=nearest address=clamp
 

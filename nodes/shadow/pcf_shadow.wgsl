@@ -9,7 +9,7 @@
 //! option compare: plane | point | offset = plane - With what a texel is compared: the receiving plane there; the shaded point itself, which needs a bias of half a kernel of slope; or the shaded point moved along its normal by that much. The last two follow no plane beyond the shaded point, for surfaces that are broken up within a kernel (leaves, hair, wire).
 //! option metric: linear | zw | radial = linear - How depth is measured: evenly along the light's axis, as projection matrices leave it, or by the distance from the light. All are linear in parallel light.
 //! option cull: none | front | back = none - Sides of triangles that are left out.
-//! option size: 256 | 512 | 1024 | 2048 | 4096 = 2048 - Texels on a side of the map.
+//! option size: 64 | 128 | 256 | 512 | 1024 | 2048 | 4096 = 2048 - Texels on a side of the map.
 //! map map: depth(size=$size, metric=$metric, cull=$cull)
 //! sampler map_sampler: compare=on filter=nearest address=clamp
 //! sampler blending_sampler: compare=on filter=linear address=clamp

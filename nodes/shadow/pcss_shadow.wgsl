@@ -7,7 +7,7 @@
 //! option filter: 16 | 32 | 64 = 32 - Samples of the filter.
 //! option turn: pixel | off = pixel - Turn the samples from pixel to pixel, which makes noise, or not, which makes bands.
 //! option cull: none | front | back = none - Sides of triangles that are left out.
-//! option size: 256 | 512 | 1024 | 2048 | 4096 = 2048 - Texels on a side of the map.
+//! option size: 64 | 128 | 256 | 512 | 1024 | 2048 | 4096 = 2048 - Texels on a side of the map.
 //! map map: depth(size=$size, cull=$cull)
 //! sampler map_sampler: filter=nearest address=clamp
 //! sampler blending_sampler: compare=on filter=linear address=clamp

@@ -7,7 +7,7 @@
 //! option fraction_bits: 16 | 18 | 20 | 22 = 18 - Digits of whole numbers after the binary point: each two more quarter the rounding of moments and halve the widest box, which is 256, 128, 64 or 32 texels.
 //! option footprint: fixed | pixel | near = pixel - Width of the box: as given; at least what the pixel covers, so that far shadows do not shimmer; or wider near the eye as well, where the texels of the map would show.
 //! option build: compute | image = compute - How the table is made.
-//! option size: 256 | 512 | 1024 | 2048 | 4096 = 1024 - Texels on a side of the map.
+//! option size: 64 | 128 | 256 | 512 | 1024 | 2048 | 4096 = 1024 - Texels on a side of the map.
 //! option slope_variance: on | off = on - Count the slope of a surface within one texel as variance, which spares slopes from shadowing themselves.
 //! map table: moments(size=$size, slope=$slope_variance) > summands(storage=$storage, fraction_bits=$fraction_bits, format=rg32uint) > sum(format=rg32uint, build=$build) > sum_drawn(format=rg32uint, build=$build)
 //! map float_table: moments(size=$size, slope=$slope_variance) > summands(storage=$storage, fraction_bits=$fraction_bits, format=rg32float) > sum(format=rg32float, build=$build) > sum_drawn(format=rg32float, build=$build)

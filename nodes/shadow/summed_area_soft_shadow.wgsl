@@ -5,7 +5,7 @@
 //! Soft shadow of a light with a size (Fernando 2005) from a summed-area table of moments: one box finds how far away the occluders are, another as wide as their penumbra filters (Lauritzen 2007; Yang and others 2010, section 3). Exact for one plane above another and a rectangular light; a round one is taken for the rectangle of equal variance. It fails where the first box holds surfaces behind the receiver, which hide occluders from the mean and harden the edge; where occluders lie at several depths, which are taken for one and bleed; and where the penumbra is wider than the widest box, which cuts it off.
 //! option fraction_bits: 16 | 18 | 20 | 22 = 18 - Digits of the table's numbers after the binary point: each two more quarter the rounding of moments and halve the widest box, which is 256, 128, 64 or 32 texels.
 //! option build: compute | image = compute - How the table is made.
-//! option size: 256 | 512 | 1024 | 2048 = 1024 - Texels on a side of the map. A smaller map has wider boxes, in metres.
+//! option size: 64 | 128 | 256 | 512 | 1024 | 2048 = 1024 - Texels on a side of the map. A smaller map has wider boxes, in metres.
 //! option slope_variance: on | off = on - Count the slope of a surface within one texel as variance, which spares slopes from shadowing themselves.
 //! map table: moments(size=$size, slope=$slope_variance) > summands(fraction_bits=$fraction_bits) > sum(build=$build) > sum_drawn(build=$build)
 

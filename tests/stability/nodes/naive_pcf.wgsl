@@ -3,7 +3,7 @@
 //! use: light_space
 //! Percentage-closer filtering with one depth for all taps, less a constant bias: what needs tuning.
 //! option width: 1 | 3 | 5 | 7 = 5 - Texels across.
-//! option size: 256 | 512 | 1024 | 2048 | 4096 = 256 - Texels on a side of the map.
+//! option size: 64 | 128 | 256 | 512 | 1024 | 2048 | 4096 = 256 - Texels on a side of the map.
 //! map map: depth(size=$size)
 //! sampler map_sampler: compare=on filter=nearest address=clamp
 
