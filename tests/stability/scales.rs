@@ -20,14 +20,14 @@ fn strip(edge: f64, shown: f64, scale: f64, size: (u32, u32)) -> Stage {
 
 /// Of a spotlight 4 m above the ground: the largest error of filtered comparison at the edge of a plate, and the most
 /// that leaks under the plate by the variance bound.
-pub(super) fn ranges(gpu: &mut Gpu, near: f64, far: f64) -> (f64, f64) {
+pub(super) fn ranges(gpu: &mut Gpu, near: f64, far: f64, metric: &str) -> (f64, f64) {
     let lamp = format!(
         "\"position\": (0, 4, 0), \"direction\": (0, -1, 0), \"outer_angle\": 45, \"inner_angle\": 44, \"near\": {near}, \"range\": {far}"
     );
     // Texels: 6 m / 256 at the plate, 8 m / 256 on the ground.
     let (at_plate, on_ground) = (6.0 / 256.0, 8.0 / 256.0);
     let stage = strip(4.0 * at_plate, 16.0 * on_ground, on_ground / at_plate, (160, 2));
-    let options = |rest: &str| format!("\"size\": \"256\", \"width\": \"5\", {rest}");
+    let options = |rest: &str| format!("\"size\": \"256\", \"width\": \"5\", \"metric\": \"{metric}\", {rest}");
     let compared = visibility(&light("spot_light", &lamp, "pcf_shadow", "", &options("\"taps\": \"bilinear\"")));
     let kernel = kernel(Weights::Gaussian, 5);
     let values = stage.look(gpu, &compared);
@@ -46,7 +46,7 @@ fn ratios_of_far_to_near_cost_what_the_range_costs() {
     let Some(mut gpu) = gpu() else { return };
     let mut table = Table::new(
         "near_far",
-        "A plate 1 m over the ground, 4 m below a spotlight: largest error of pcf_shadow at its edge, and what leaks under\nit through variance_shadow at its default minimum variance of 1e-6 ranges squared. Stored depth is linear, so the\nnear plane costs nothing; the far plane makes the gap smaller in ranges.",
+        "A plate 1 m over the ground, 4 m below a spotlight: largest error of pcf_shadow at its edge, and what leaks under\nit through variance_shadow at its default minimum variance of 1e-6 ranges squared. Linear depth\nleaves the near plane without a cost; the far plane makes the gap smaller in ranges, and so does a near plane with z/w.",
         WEIGHTS,
         (1e-3, 0.0),
     );
@@ -61,7 +61,7 @@ fn ratios_of_far_to_near_cost_what_the_range_costs() {
         (0.01, 10_000.0),
     ];
     for (near, far) in ranges_of {
-        let (error, leak) = ranges(&mut gpu, near, far);
+        let (error, leak) = ranges(&mut gpu, near, far, "linear");
         let what = format!("near {near}, far {far} (1 : {:.0e})", far / near);
         table.row(format!("{what}: pcf_shadow"), "T4, whatever the range", error, Bound::Most(CLOSED_FORM));
         let gap = 1.0 / (far - near);
@@ -69,6 +69,17 @@ fn ratios_of_far_to_near_cost_what_the_range_costs() {
         let law = 1e-6 / (1e-6 + gap * gap);
         let noise = 1.1e-6 / (1.1e-6 + gap * gap) - law + 1e-5;
         table.wide(format!("{what}: variance_shadow"), "T10: e / (e + gap^2)", leak, Bound::Near(law, noise));
+    }
+    for near in [1.0, 0.1, 0.01, 0.001] {
+        let (error, leak) = ranges(&mut gpu, near, 10.0, "zw");
+        let what = format!("near {near}, far 10, z/w");
+        table.row(format!("{what}: pcf_shadow"), "T4, whatever the range", error, Bound::Most(CLOSED_FORM));
+        // At 3 m and 4 m from the light.
+        let gap = 10.0 / (10.0 - near) * near * (1.0 / 3.0 - 1.0 / 4.0);
+        let law = |gap: f64| 1e-6 / (1e-6 + gap * gap);
+        // Depths near 1 are stored to 6e-8.
+        let within = law(gap - 1.2e-7) - law(gap) + 1e-5;
+        table.wide(format!("{what}: variance_shadow"), "T10 at the gap in z/w", leak, Bound::Near(law(gap), within));
     }
     table.check(&gpu);
 }
