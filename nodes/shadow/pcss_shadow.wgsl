@@ -9,6 +9,7 @@
 //! option cull: none | front | back = none - Sides of triangles that are left out.
 //! option size: 64 | 128 | 256 | 512 | 1024 | 2048 | 4096 = 2048 - Texels on a side of the map.
 //! map map: depth(size=$size, cull=$cull)
+//! map depths: depth(size=$size, cull=$cull)
 //! sampler map_sampler: filter=nearest address=clamp
 //! sampler blending_sampler: compare=on filter=linear address=clamp
 
@@ -17,7 +18,8 @@ const FILTER: i32 = 32;
 
 /// point (point world; = @position_world; hidden): The shaded point.
 /// space (space; hidden): The light's space.
-/// map (map; hidden): Linear depth of the nearest surface.
+/// map (map; hidden): Linear depth of the nearest surface, to compare with.
+/// depths (map; hidden): The same, to read: OpenGL does not let one variable do both.
 /// map_sampler (sampler; hidden): Reads one texel.
 /// blending_sampler (sampler; hidden): Compares with four texels and blends the results.
 //#if turn == pixel
@@ -31,6 +33,7 @@ fn pcss_shadow(
     point: vec3f,
     space: LightSpace,
     map: texture_depth_2d_array,
+    depths: texture_2d_array<f32>,
     map_sampler: sampler,
     blending_sampler: sampler_comparison,
 //#if turn == pixel
@@ -60,7 +63,7 @@ fn pcss_shadow(
         let offset = on_source(source, vogel_sample(i, SEARCH, turn)) * reach;
         let texel = clamp(floor(light_map_uv(space, position + vec3f(offset, 0.0)) * size), vec2f(0.0), size - 1.0);
         let uv = (texel + 0.5) / size;
-        let stored = textureSampleLevel(map, map_sampler, uv, layer, 0);
+        let stored = textureSampleLevel(depths, map_sampler, uv, layer, 0.0).x;
         let nearer = select(0.0, 1.0, stored < compared_depth(space, plane, size, uv, margin));
         total += nearer * stored;
         found += nearer;

@@ -51,7 +51,9 @@ pub(super) fn main_spec(
             Resource::Map { index, .. } => {
                 let map = map_of.get(*index).map(|i| &lights.maps[*i]);
                 let map = map.ok_or_else(|| missing_map(binding))?;
-                let filterable = device.abilities(map.format()).filterable;
+                // Depth can be read, but not interpolated.
+                let depth = map.format().is_depth_stencil_format();
+                let filterable = device.abilities(map.format()).filterable && !depth;
                 array_type(wgpu::TextureSampleType::Float { filterable })
             }
         };
