@@ -7,15 +7,25 @@ use shadetree::diagnostic::SourceText;
 use shadetree::node::Catalog;
 use shadetree::render::Gpu;
 
-use crate::stage::Stage;
+use crate::stage::{Stage, renders};
 use crate::support::{catalog, graph_file, graph_text, prove, show};
 
 /// Shadows from maps of depth or its moments.
 pub(super) const SHADOWS: [&str; 3] = ["hard_shadow", "pcf_shadow", "variance_shadow"];
 
 /// Shadows from maps that hold something else than depth, or more: what goes wrong with depth may grow in them.
-pub(super) const DERIVED: [&str; 4] =
-    ["exponential_shadow", "exponential_variance_shadow", "moment_shadow", "summed_area_shadow"];
+const DERIVED: [&str; 4] = ["exponential_shadow", "exponential_variance_shadow", "moment_shadow", "summed_area_shadow"];
+
+/// All of them that the adapter has formats for: maps that hold more than depth want floats of 32 bits.
+pub(super) fn shadows(gpu: &Gpu) -> Vec<&'static str> {
+    let derived = DERIVED.into_iter().filter(|_| single_precision(gpu));
+    SHADOWS.into_iter().chain(derived).collect()
+}
+
+/// Whether the adapter makes maps of single precision.
+pub(super) fn single_precision(gpu: &Gpu) -> bool {
+    ["r32float", "rg32float", "rgba32float"].iter().all(|format| renders(gpu, format))
+}
 
 /// Shadow nodes that do what textbooks warn of: they show the failures that the nodes of the catalogue avoid.
 const NAIVE: [(&str, &str); 3] = [

@@ -8,15 +8,15 @@ use shadetree::reference::{
 };
 use shadetree::render::Gpu;
 
-use super::bench::most;
+use super::bench::{most, single_precision};
 use super::bleeding::WEIGHTS;
 use super::table::{Bound, Table, figure};
 use crate::laws::lamp::{CLOSED_FORM, Lamp, PLAIN, Plate, SIDE, under};
-use crate::stage::{Stage, gpu, renders, skipped};
+use crate::stage::{Stage, gpu, skipped};
 
 /// Whether the adapter makes maps of single precision; says so if not.
 pub(super) fn able(gpu: &Gpu) -> bool {
-    let able = renders(gpu, "rgba32float") && renders(gpu, "rg32float") && renders(gpu, "r32float");
+    let able = single_precision(gpu);
     if !able {
         skipped(&format!("{} has no maps of 32-bit floats", gpu.adapter()));
     }
