@@ -5,7 +5,7 @@ use shadetree::reference::{Weights, chebyshev, edge_visibility, kernel};
 use shadetree::render::Gpu;
 use shadetree::scene::{Mesh, Shape};
 
-use super::bench::{Numbers, SHADOWS, least, most, shadows};
+use super::bench::{Numbers, SHADOWS, least, most, shadows, single_precision};
 use super::bleeding::WEIGHTS;
 use super::table::{Bound, Table};
 use crate::laws::lamp::{CLOSED_FORM, Lamp, PLAIN, Plate, SIDE, pcf, under, vsm};
@@ -54,6 +54,46 @@ fn empty_maps_hold_the_far_plane() {
     let law = (receiver - near) / (far - near);
     // 20 pixels a texel, over which the edge rises by at most 0.4 a texel.
     table.row("edge, variance_shadow: least p that is fully lit", "T13: (t - A) / L", lit, Bound::Near(law, 0.02));
+    table.check(&gpu);
+}
+
+/// Depths above 1 must not reach exponentials, and weigh more in means than they should.
+#[test]
+fn what_lies_beyond_the_far_plane_is_no_number_too_large() {
+    let Some(mut gpu) = gpu() else { return };
+    let mut table = Table::new(
+        "beyond_far",
+        "The same edge over a ground that does not cast, with a floor 20 m below it, almost five ranges beyond the far plane:\nvalues of the map that are no numbers, where all of the filter sees the floor the darkest pixel, and where none does\nthe brightest. Moments keep the depth of what lies beyond, as surfaces that run through the far plane ask; the less of\nit is enough to be falsely lit.",
+        WEIGHTS,
+        (2e-3, 0.0),
+    );
+    let mut stage = under(Lamp::Spot, &[Plate { height: 1.0, edge: 4.0, angle: 0.0 }], 16.0, (320, 2));
+    stage.items[0].casts = false;
+    stage.items.push(Item::plane([60.0, 60.0], DMat4::from_translation(DVec3::NEG_Y * 20.0)));
+    for shadow in shadows(&gpu) {
+        let shader = Lamp::Spot.shadow(shadow, "", "");
+        if let Ok(map) = gpu.map(&stage.job(&shader), "light/lamp", 0) {
+            let strange = map.pixels.iter().flatten().filter(|x| !x.is_finite()).count();
+            table.row(format!("{shadow}: not a number"), "none", strange as f64, Bound::Most(0.0));
+        }
+        let values = stage.look(&mut gpu, &shader);
+        let side = |right: bool| {
+            let far = stage.on_ground(&values).map(|(p, v)| (Lamp::Spot.at(p).0 - SIDE / 2.0 - 4.0, v));
+            far.filter(|(x, _)| if right { *x > 3.6 } else { *x < -3.6 }).map(|(_, v)| v).collect::<Vec<_>>()
+        };
+        table.row(format!("{shadow}: darkest over the floor"), "lit", least(&side(true)), Bound::Least(1.0 - 1e-6));
+        // The gap is a quarter of the range.
+        table.row(format!("{shadow}: brightest under the plate"), "dark", most(&side(false)), Bound::Most(1e-4));
+    }
+    if single_precision(&gpu) {
+        let kernel = kernel(Weights::Gaussian, 5);
+        let values = stage.look(&mut gpu, &vsm(Lamp::Spot, "gaussian", 5, PLAIN));
+        let truth = |p: DVec3| edge_visibility(&kernel, Lamp::Spot.at(p).0 - SIDE / 2.0 - 4.0);
+        let lit = stage.on_ground(&values).filter(|(_, v)| *v > 1.0 - 1e-6).map(|(p, _)| truth(p)).fold(1.0, f64::min);
+        let (near, receiver) = (Lamp::Spot.depth(1.0), Lamp::Spot.depth(0.0));
+        let law = (receiver - near) / (Lamp::Spot.depth(-20.0) - near);
+        table.row("variance_shadow: least p that is fully lit", "T13: (t - A) / L", lit, Bound::Near(law, 0.02));
+    }
     table.check(&gpu);
 }
 
