@@ -85,7 +85,8 @@ struct SeenSource {
 @group(2) @binding(1) var nearest_clamp_sampler: sampler;
 @group(2) @binding(2) var linear_comparison_sampler: sampler_comparison;
 @group(3) @binding(0) var<uniform> panel_space: LightSpace;
-@group(3) @binding(1) var panel_map: texture_depth_2d_array;
+@group(3) @binding(1) var panel_shadow_map: texture_depth_2d_array;
+@group(3) @binding(2) var panel_shadow_map_2: texture_2d_array<f32>;
 
 fn point_light_ray(point: vec3f, position: vec3f) -> vec4f {
     let offset = position - point;
@@ -283,6 +284,7 @@ fn pcss_shadow(
     point: vec3f,
     space: LightSpace,
     map: texture_depth_2d_array,
+    depths: texture_2d_array<f32>,
     map_sampler: sampler,
     blending_sampler: sampler_comparison,
     pixel: vec2f,
@@ -306,7 +308,7 @@ fn pcss_shadow(
         let offset = on_source(source, vogel_sample(i, SEARCH, turn)) * reach;
         let texel = clamp(floor(light_map_uv(space, position + vec3f(offset, 0.0)) * size), vec2f(0.0), size - 1.0);
         let uv = (texel + 0.5) / size;
-        let stored = textureSampleLevel(map, map_sampler, uv, layer, 0);
+        let stored = textureSampleLevel(depths, map_sampler, uv, layer, 0.0).x;
         let nearer = select(0.0, 1.0, stored < compared_depth(space, plane, size, uv, margin));
         total += nearer * stored;
         found += nearer;
@@ -388,7 +390,8 @@ fn fs_main(in: Varyings) -> @location(0) vec4f {
     let shadow_visibility = pcss_shadow(
         in.position_world,
         panel_space,
-        panel_map,
+        panel_shadow_map,
+        panel_shadow_map_2,
         nearest_clamp_sampler,
         linear_comparison_sampler,
         in.clip_position.xy,
