@@ -133,7 +133,7 @@ fn kinds(command: &Compare, catalog: &Catalog) -> Result<Vec<String>, Failure> {
     let all: Vec<&str> = catalog.kinds().filter(is_shadow).collect();
     if let Some(wrong) = command.only.iter().find(|kind| !all.contains(&kind.as_str())) {
         let message = format!("`{wrong}` is not a kind of shadow");
-        return Err(Failure::usage(message, &format!("kinds are {}", all.join(", "))));
+        return Err(Failure::usage(message, format!("kinds are {}", all.join(", "))));
     }
     let wanted = |kind: &&&str| command.only.is_empty() || command.only.iter().any(|only| only == *kind);
     Ok(all.iter().filter(wanted).map(|kind| (*kind).to_owned()).collect())

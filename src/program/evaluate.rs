@@ -329,11 +329,13 @@ impl Program {
             name.push_str("_ambient");
         }
         match function.outputs.as_slice() {
-            [one] if function.result_struct.is_none() && !matches!(one.name.as_str(), "value" | "result") => {
-                if !name.ends_with(&one.name) {
-                    name.push('_');
-                    name.push_str(&one.name);
-                }
+            [one]
+                if function.result_struct.is_none()
+                    && !matches!(one.name.as_str(), "value" | "result")
+                    && !name.ends_with(&one.name) =>
+            {
+                name.push('_');
+                name.push_str(&one.name);
             }
             _ => {}
         }

@@ -144,7 +144,7 @@ impl<'a> Work<'a> {
                 continue;
             }
             match self.offer(link.from, link.from_port.as_deref(), port) {
-                Some(offer) => drop(inputs.insert(name.clone(), self.wire(link.from, &offer))),
+                Some(offer) => inputs.insert(name.clone(), self.wire(link.from, &offer)),
                 None => out.push(self.mismatch(link, port)),
             }
         }
@@ -255,7 +255,7 @@ impl<'a> Work<'a> {
                 continue;
             }
             match self.further_up(port) {
-                Ok(Some(wire)) => drop(inputs.insert(port.name.clone(), wire)),
+                Ok(Some(wire)) => inputs.insert(port.name.clone(), wire),
                 Ok(None) if blind || self.found.refused.contains(&port.name) => {}
                 Err(_) if blind => {}
                 Ok(None) => out.push(self.missing(port, incoming)),
