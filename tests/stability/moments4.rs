@@ -96,7 +96,7 @@ fn moments_are_exact_for_half_as_many_occluders() {
     }
     let mut table = Table::new(
         "layers",
-        "Twenty scenes each of one to four plates at random heights, places and angles; box blur of 11 texels: errors of\nvisibility. Two moments are exact for one occluder, four for two.",
+        "Twelve scenes each of one to four plates at random heights, places and angles; box blur of 11 texels: errors of\nvisibility. Two moments are exact for one occluder, four for two.",
         WEIGHTS,
         (2e-3, 0.05),
     );
@@ -106,7 +106,7 @@ fn moments_are_exact_for_half_as_many_occluders() {
     ];
     for (name, kind, params, exact) in methods {
         for plates in 1..=4 {
-            let off = layered(&mut gpu, kind, params, plates, 20);
+            let off = layered(&mut gpu, kind, params, plates, 12);
             let at = |part: f64| off[((off.len() - 1) as f64 * part) as usize];
             let what = |which: &str| format!("{name}, {plates} plates: {which}");
             if plates <= exact {
@@ -185,15 +185,14 @@ fn tables_of_floats_fail_as_maps_grow_and_whole_numbers_do_not() {
         (5e-3, 0.3),
     );
     // By T11 the variance over boxes of 8 texels is off by 1.3e-6 with whole numbers, about the minimum variance, and
-    // with floats by 2e-3, 1e-2 and 4e-2 from 512 texels on: far more than that.
+    // with floats by 2e-3 and 1e-2 at 512 and 1024 texels: far more than that.
     for (storage, size, law, bound) in [
         ("uint32", 256, "T11: the same at every size", Bound::Least(254.0 / 255.0)),
         ("uint32", 1024, "T11: the same at every size", Bound::Least(254.0 / 255.0)),
         ("uint32", 2048, "T11: the same at every size", Bound::Least(254.0 / 255.0)),
-        ("centred", 2048, "T11: off by .017", Bound::Most(0.999)),
+        ("centred", 1024, "T11: off by .004", Bound::Most(0.9999)),
         ("float32", 512, "T11: off by .002", Bound::Most(0.999)),
         ("float32", 1024, "T11: off by .01", Bound::Most(0.95)),
-        ("float32", 2048, "T11: off by .042", Bound::Most(0.5)),
     ] {
         let darkest = summed(&mut gpu, storage, size);
         table.wide(format!("{storage}, {size}: darkest"), law, darkest, bound);

@@ -16,7 +16,7 @@ pub(super) fn claims(gpu: &mut Gpu) -> Vec<Claim> {
     let all = [
         PLAIN,
         unfiltered,
-        Timed { segments: 400, ..VSM },
+        Timed { segments: 200, ..VSM },
         VSM,
         Timed { size: 256, ..PCF },
         Timed { size: 1024, ..PCF },
@@ -63,7 +63,7 @@ pub(super) fn claims(gpu: &mut Gpu) -> Vec<Claim> {
             source: "VSM",
             says: "The cost does not depend on how complex the geometry is",
             holds: vec![timed(
-                "blur with 160,000 triangles over that with 600 is at most 1.3",
+                "blur with 40,000 triangles over that with 600 is at most 1.3",
                 ratio(complex, vsm, |t| t.blur),
                 Bound::Most(1.3),
             )],

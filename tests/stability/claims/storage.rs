@@ -13,7 +13,7 @@ use crate::stage::{Item, Stage, View, light, visibility};
 
 pub(super) fn claims(gpu: &mut Gpu) -> Vec<Claim> {
     let lit = ["rg16float", "split", "rg32float"].map(|format| formats::darkest_lit(gpu, format, 1e-6));
-    let sums = moments4::summed(gpu, "float32", 2048);
+    let sums = moments4::summed(gpu, "float32", 1024);
     vec![
         Claim {
             id: 12,
@@ -24,7 +24,7 @@ pub(super) fn claims(gpu: &mut Gpu) -> Vec<Claim> {
                 shows("the same in 32 bits", lit[2], Bound::Least(254.0 / 255.0)),
             ],
             limits: vec![shows(
-                "darkest lit pixel, table of sums of 2048 texels in 32-bit floats",
+                "darkest lit pixel, table of sums of 1024 texels in 32-bit floats",
                 sums,
                 Bound::Most(0.9),
             )],
