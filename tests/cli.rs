@@ -1,6 +1,8 @@
 //! The program as people and scripts run it: exit codes, what goes to stdout and what to stderr, and files.
 
 mod commands;
+#[cfg(feature = "render")]
+mod compare;
 pub(crate) mod generate;
 mod json;
 #[cfg(feature = "render")]

@@ -12,14 +12,15 @@ use super::context::Context;
 use super::exit::{Exit, Failure, Outcome};
 use super::load::{Document, Loader};
 use super::output;
-use super::picture::{Drawn, late, pixels};
-use super::render::{Aov, Reference, Render, Samples};
+use super::picture::{Drawn, failure, late, pixels};
+use super::render::{Aov, Reference, Render, Samples, adapter_options};
 use super::settings::{Assignment, Target};
 use super::truth;
 use crate::compile::Output;
 use crate::diagnostic::{Diagnostic, Place};
 use crate::node::Catalog;
 use crate::reference::Metrics;
+use crate::render::Gpu;
 use crate::render::image_file::{Display, ToneCurve, encode_png};
 
 /// Space around pictures, and the height of a line of text.
@@ -45,7 +46,10 @@ pub(super) fn run(command: &Compare, context: &Context) -> Outcome {
     let shadow = shadow_of(command, &loader, &catalog)?;
     let kinds = kinds(command, &catalog)?;
     let bar = late(context, "comparing", Some(kinds.len() as u64));
-    let mut gpu = None;
+    let mut gpu = Gpu::new(&adapter_options(command.adapter.as_deref())).map_err(failure)?;
+    // Every shadow pays for its own maps.
+    gpu.keep_maps(0);
+    let mut gpu = Some(gpu);
     let mut truths: BTreeMap<String, Vec<[f32; 4]>> = BTreeMap::new();
     let mut rows = Vec::new();
     let mut adapter = String::new();

@@ -269,7 +269,7 @@ pub(super) fn late(context: &Context, message: &'static str, steps: Option<u64>)
     bar
 }
 
-fn failure(error: RenderError) -> Failure {
+pub(super) fn failure(error: RenderError) -> Failure {
     let (code, exit) = match &error {
         RenderError::NoAdapter { .. } | RenderError::NoDevice { .. } | RenderError::Unsupported(_) => {
             ("ST0513", Exit::NoAdapter)
