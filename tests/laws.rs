@@ -9,6 +9,7 @@ mod lights;
 mod many;
 mod methods;
 mod minification;
+mod pairs;
 mod penumbra;
 mod percentage;
 mod planar;
