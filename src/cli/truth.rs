@@ -11,7 +11,7 @@ use super::picture::{late, save};
 use super::render::{Aov, Reference, Render};
 use super::settings::{self, overrides};
 use super::stage;
-use super::truth_light::{filter, light};
+use super::truth_light::{cut, filter, light};
 use super::weave::{Input, Weaver};
 use crate::compile::{NamedGraph, Options, Output};
 use crate::diagnostic::{Diagnostic, Place, SourceText};
@@ -57,11 +57,16 @@ pub(super) fn pixels(command: &Render, context: &Context, loader: &Loader) -> Re
     });
     let world = World::new(&bodies.collect::<Vec<_>>());
     let camera = scene.camera.camera();
-    let light = light(&woven, &world)?;
+    let mut light = light(&woven, &world)?;
     let filter = match command.reference {
         Some(Reference::Pcf) => Some(filter(&woven, command, context)?),
         _ => None,
     };
+    if let Some(filter) = &filter
+        && let Some(cut) = cut(&woven, filter.size)
+    {
+        light = light.cut(&cut, &camera, command.size, &world);
+    }
     let samples = command.reference_samples.unwrap_or(256).next_multiple_of(rays::GROUPS);
     let method = filter.as_ref().map_or(Method::Rays(samples), Method::Filter);
 

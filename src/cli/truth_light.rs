@@ -5,7 +5,7 @@ use super::exit::Failure;
 use super::render::Render;
 use super::truth::no_truth;
 use crate::module::stored;
-use crate::reference::{Filter, Light, Taps, Weights, World, kernel};
+use crate::reference::{Cut, Filter, Light, Taps, Weights, World, kernel};
 use crate::weave::{Node, Root, Wire, Woven};
 
 /// Fine texels along a texel where the command line does not say.
@@ -45,13 +45,6 @@ pub(super) fn filter(woven: &Woven, command: &Render, context: &Context) -> Resu
         let message = format!("the light `{}` has no shadow whose filter could be judged", light.id);
         return Err(no_truth(message, "link a shadow behind it, or use --reference rays", light.place()));
     };
-    let space = light.definition.header.space.as_ref();
-    // Faces of a cube are known; parts depend on the eye.
-    if space.is_some_and(|s| s.projection != "cube" && s.views(&light.definition) > 1) {
-        let message =
-            format!("the maps of the light `{}` are cut into parts, which is not filtered exhaustively", light.id);
-        return Err(no_truth(message, "give the light one part, or use --reference rays", light.place().clone()));
-    }
     if shadows.len() > 1 {
         context.say(&format!("`{}` has {} shadows; the filter is that of `{}`", light.id, shadows.len(), shadow.id));
     }
@@ -87,6 +80,33 @@ pub(super) fn filter(woven: &Woven, command: &Render, context: &Context) -> Resu
         taps,
         size: number("size", 1024)?.max(1),
         factor: command.reference_samples.unwrap_or(FACTOR),
+    })
+}
+
+/// How the maps of the light are cut into parts, if they are.
+pub(super) fn cut(woven: &Woven, side: u32) -> Option<Cut> {
+    let (light, _) = wanted(woven).ok()?;
+    let definition = &light.definition;
+    let space = definition.header.space.as_ref()?;
+    let parts = space.views(definition);
+    if parts == 1 || space.projection != "orthographic" {
+        return None;
+    }
+    let names: Vec<&String> = space.inputs_of(definition).collect();
+    let number = |index: usize| match light.inputs.get(names.get(index)?) {
+        Some(Wire::Value(value)) => {
+            let port = definition.input(names[index])?;
+            stored(value, &port.ty.shape, &port.unit).first().copied()
+        }
+        _ => None,
+    };
+    Some(Cut {
+        parts,
+        balance: number(4)?,
+        reach: number(5)?,
+        stable: space.setting(definition, "fit") == "stable",
+        blend: space.blends(definition),
+        side,
     })
 }
 

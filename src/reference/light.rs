@@ -19,6 +19,9 @@ pub struct Light {
     pub choice: Choice,
     /// Whether it shines within its views alone. Then points outside count as lit, as nothing can be seen of a shadow there.
     pub bounded: bool,
+    /// Where the view of an eye is cut, if it is: the eye, the direction that it looks in, and the distances at which all
+    /// parts but the last end.
+    pub cuts: Option<(DVec3, DVec3, Vec<f64>)>,
 }
 
 /// Which of several views a point is looked up in.
@@ -28,6 +31,8 @@ pub enum Choice {
     Axis,
     /// The first one that holds it.
     First,
+    /// The one for its distance from the eye.
+    Distance,
 }
 
 impl Light {
@@ -43,7 +48,8 @@ impl Light {
     /// Answers what is wrong, as a sentence.
     pub fn projected(projection: &str, inputs: &[Vec<f64>], world: &World) -> Result<Self, String> {
         let inputs = Inputs(inputs);
-        let one = |source, view, bounded| Self { source, views: vec![view], choice: Choice::First, bounded };
+        let one =
+            |source, view, bounded| Self { source, views: vec![view], choice: Choice::First, bounded, cuts: None };
         match projection {
             "perspective" => {
                 let view = inputs.cone()?;
@@ -58,7 +64,13 @@ impl Light {
             "cube" => {
                 let (center, near) = (inputs.vector(0)?, inputs.length(1)?);
                 let source = Source::Ball { center, radius: inputs.length(3)? };
-                Ok(Self { source, views: View::cube(center, near).into(), choice: Choice::Axis, bounded: false })
+                Ok(Self {
+                    source,
+                    views: View::cube(center, near).into(),
+                    choice: Choice::Axis,
+                    bounded: false,
+                    cuts: None,
+                })
             }
             "orthographic" => {
                 let (axis, mut center, mut radius) = (inputs.axis(0)?, inputs.vector(1)?, inputs.length(2)?);
@@ -84,6 +96,11 @@ impl Light {
         let mut all = 0..self.views.len();
         match self.choice {
             Choice::First => all.find(holds),
+            Choice::Distance => {
+                let (eye, forward, ends) = self.cuts.as_ref()?;
+                let distance = (point - eye).dot(*forward);
+                Some(ends.iter().filter(|end| distance > **end).count()).filter(holds)
+            }
             Choice::Axis => {
                 let depth = |i: usize| self.views[i].point(point).z;
                 all.reduce(|a, b| if depth(b) > depth(a) { b } else { a }).filter(holds)

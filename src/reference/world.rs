@@ -122,6 +122,11 @@ impl World {
         (b - a).cross(c - a).normalize_or_zero()
     }
 
+    /// The boxes around the bodies, by their corners: the bits of a corner's number tell its end along each axis.
+    pub fn boxes(&self) -> &[[DVec3; 8]] {
+        &self.boxes
+    }
+
     /// A ball around the boxes around the bodies: the middle of all their corners' bounds, and the distance of the
     /// farthest corner. This is what a parallel light covers that fits the scene. A world of nothing has the unit ball.
     pub fn ball(&self) -> (DVec3, f64) {

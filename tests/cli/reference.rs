@@ -89,7 +89,6 @@ fn what_has_no_truth_is_refused() {
     truth(&format!("{SCENE} --reference pcf --reference-samples 1"), &out).exits(2).says("2 to 64");
     truth("graphs/scenes/planar.ron --aov visibility:moon --reference rays", &out).exits(1).says("ST0219").says("moon");
     truth(&lit("spot", "spot --reference pcf"), &out).exits(1).says("ST0520").says("no shadow");
-    truth(&lit("sun_splits", "sun --reference pcf"), &out).exits(1).says("ST0520").says("cut into parts");
     let linked = put(
         folder.path(),
         "linked.ron",

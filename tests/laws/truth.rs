@@ -135,11 +135,12 @@ fn the_renderer_filters_a_plate_as_the_truth_does() {
 }
 
 /// Visibility and coverage of each pixel of a scene, by the program.
-fn program(scene: &Path, more: &[&str], out: &Path) -> Vec<Option<f64>> {
+fn program(scene: &Path, light: &str, more: &[&str], out: &Path) -> Vec<Option<f64>> {
     let ran = Command::new(env!("CARGO_BIN_EXE_shadetree"))
         .current_dir(root())
-        .args(["--quiet", "render", "--size", "96x54", "--samples", "1", "--aov", "visibility:spot", "-o"])
+        .args(["--quiet", "render", "--size", "96x54", "--samples", "1", "-o"])
         .args([out, scene])
+        .args(["--aov", &format!("visibility:{light}")])
         .args(more)
         .output()
         .expect("the program runs");
@@ -166,8 +167,8 @@ fn the_car_is_shadowed_as_the_truth_says() {
     std::fs::write(&scene, car.replace("spot_soft", "spot_pcf")).expect("written");
     let out = folder.path().join("out.exr");
     let size = ["--option", "shadow.size=1024"];
-    let drawn = program(&scene, &size, &out);
-    let truth = program(&scene, &[size[0], size[1], "--reference", "pcf", "--reference-samples", "4"], &out);
+    let drawn = program(&scene, "spot", &size, &out);
+    let truth = program(&scene, "spot", &[size[0], size[1], "--reference", "pcf", "--reference-samples", "4"], &out);
     let pairs: Vec<(f64, f64)> = drawn.iter().zip(&truth).filter_map(|(a, b)| Some(((*a)?, (*b)?))).collect();
     let differ = drawn.iter().zip(&truth).filter(|(a, b)| a.is_some() != b.is_some()).count();
     // The map knows edges to half a texel, over which the filter changes by at most its greatest weight times that. What
@@ -193,6 +194,37 @@ fn the_car_is_shadowed_as_the_truth_says() {
     {
         leave(&drawn, &truth);
         panic!("the pictures in target/ are not of one shadow; coverage differs in {differ} pixels");
+    }
+}
+
+/// A view that is cut into parts, each with a map of its own, against the same parts in float64.
+#[test]
+fn the_parts_of_a_view_are_filtered_as_the_truth_says() {
+    if gpu().is_none() {
+        return;
+    }
+    let folder = tempfile::tempdir().expect("a folder");
+    let graphs = root().join("graphs").display().to_string();
+    let grazing = text("graphs/scenes/grazing.ron".as_ref()).text.replace("\"../", &format!("\"{graphs}/"));
+    let (scene, out) = (folder.path().join("grazing.ron"), folder.path().join("out.exr"));
+    std::fs::write(&scene, grazing.replace("sun_fine", "sun_splits")).expect("written");
+    let snapped = kernel(Weights::Gaussian, 3).into_iter().fold(0.0, f64::max) * 0.5;
+    for fit in ["tight", "stable"] {
+        let fit = format!("sun.fit={fit}");
+        let asked = ["--kind", "shadow=pcf_shadow", "--option", "shadow.width=3", "--option", &fit];
+        let drawn = program(&scene, "sun", &asked, &out);
+        let truth = [&asked[..], &["--reference", "pcf", "--reference-samples", "4"]].concat();
+        let truth = program(&scene, "sun", &truth, &out);
+        let pairs: Vec<(f64, f64)> = drawn.iter().zip(&truth).filter_map(|(a, b)| Some(((*a)?, (*b)?))).collect();
+        let count = |test: &dyn Fn(f64, f64) -> bool| pairs.iter().filter(|(a, b)| test(*a, *b)).count();
+        let shadow = count(&|_, truth| truth < 0.5);
+        let far = count(&|drawn, truth| (drawn - truth).abs() > snapped);
+        println!("{fit}: {shadow} of {} pixels in shadow, {far} off by more than {snapped:.3}", pairs.len());
+        // As on the car: what half a texel may change, and where either does without comparisons.
+        if shadow < 40 || far > pairs.len() / 100 {
+            leave(&drawn, &truth);
+            panic!("the pictures in target/ are not of one shadow");
+        }
     }
 }
 
