@@ -2,7 +2,7 @@
 //! category: shadow
 //! synonyms: pcss, percentage closer soft shadow, vssm, variance soft shadow, satvsm, area light shadow, penumbra
 //! use: light_space, summed_area
-//! Soft shadow of a light with a size (Fernando 2005) from a summed-area table of moments: one box finds how far away the occluders are, another as wide as their penumbra filters (Lauritzen 2007; Yang and others 2010, section 3). Exact for one plane above another and a rectangular light; a round one is taken for the rectangle of equal variance. It fails where the first box holds surfaces behind the receiver, which hide occluders from the mean and harden the edge; where occluders lie at several depths, which are taken for one and bleed; and where the penumbra is wider than the widest box, which cuts it off.
+//! Soft shadow of a light with a size (Fernando 2005) from a summed-area table of moments: one box finds how far away the occluders are, another as wide as their penumbra filters (Lauritzen 2007; Yang and others 2010, section 3). Exact for one plane above another and a rectangular light, in wide boxes to half a texel; a round one is taken for the rectangle of equal variance. Wide boxes are cut into four by four, each with the depth that the receiver's plane has there (Yang and others 2010, section 4), so that slopes do not count as variance. It fails where the first box holds surfaces behind the receiver, which hide occluders from the mean and harden the edge; where occluders lie at several depths, which are taken for one and bleed; and where the penumbra is wider than the widest box, which cuts it off.
 //! option fraction_bits: 16 | 18 | 20 | 22 = 18 - Digits of the table's numbers after the binary point: each two more quarter the rounding of moments and halve the widest box, which is 256, 128, 64 or 32 texels.
 //! option build: compute | image = compute - How the table is made.
 //! option size: 64 | 128 | 256 | 512 | 1024 | 2048 = 1024 - Texels on a side of the map. A smaller map has wider boxes, in metres.
@@ -26,6 +26,74 @@ fn source_width(space: LightSpace, position: vec3f, size: vec2f, occluder: f32) 
     return 2.0 * size * (abs(across) + abs(down));
 }
 
+/// Parts along a side of a wide box, and the least width in texels of one that is cut: of narrower parts, which end at whole
+/// texels, the stairs would be seen.
+const PARTS: i32 = 4;
+const LEAST_CUT: f32 = 32.0;
+
+/// What a box says of the receiver: the lit share at most, with the reduction of bleeding, and how much nearer than the
+/// receiver the map is on average (linear depth), which is the dark share times the distance of what is there.
+struct Seen {
+    lit: f32,
+    nearer: f32,
+}
+
+/// One box as a whole, with parts of texels.
+fn seen_in_whole(
+    space: LightSpace,
+    plane: ReceiverPlane,
+    table: texture_2d_array<u32>,
+    width: vec2f,
+    least_variance: f32,
+    reduction: f32,
+) -> Seen {
+    let region = summed_box(plane.uv, width, vec2f(textureDimensions(table)));
+    let moments = summed_mean(table, light_layer(space), region) * (1.0 / f32(1u << FRACTION_BITS));
+    let depth = receiver_depth(space, plane, region.center);
+    let variance = moments.y - moments.x * moments.x;
+    let lit = summed_bound(depth, moments.x, variance, least_variance, reduction);
+    return Seen(lit, max(depth - moments.x, 0.0));
+}
+
+/// The mean over the parts of a box, each of whole texels.
+fn seen_in_parts(
+    space: LightSpace,
+    plane: ReceiverPlane,
+    table: texture_2d_array<u32>,
+    width: vec2f,
+    least_variance: f32,
+    reduction: f32,
+) -> Seen {
+    let size = vec2f(textureDimensions(table));
+    let low = clamp(plane.uv * size - 0.5 * width, vec2f(0.0), size - 1.0);
+    let high = clamp(plane.uv * size + 0.5 * width, vec2f(1.0), size);
+    let layer = light_layer(space);
+    var seen = Seen(0.0, 0.0);
+    var total = 0.0;
+    var above = array<vec2u, PARTS + 1>();
+    for (var j = 0; j <= PARTS; j++) {
+        let rows = round(mix(vec2f(low.y), vec2f(high.y), vec2f(f32(j) - 1.0, f32(j)) / f32(PARTS)));
+        var before = array<vec2u, PARTS + 1>();
+        for (var i = 0; i <= PARTS; i++) {
+            let columns = round(mix(vec2f(low.x), vec2f(high.x), vec2f(f32(i) - 1.0, f32(i)) / f32(PARTS)));
+            before[i] = summed_before(table, layer, i32(columns.y), i32(rows.y));
+            let area = (columns.y - columns.x) * (rows.y - rows.x);
+            if (i > 0 && j > 0 && area > 0.0) {
+                let sum = (before[i] - before[i - 1]) - (above[i] - above[i - 1]);
+                let moments = vec2f(sum) * (1.0 / f32(1u << FRACTION_BITS)) / area;
+                let center = vec2f(columns.x + columns.y, rows.x + rows.y) * 0.5 / size;
+                let depth = receiver_depth(space, plane, center);
+                let variance = moments.y - moments.x * moments.x;
+                seen.lit += area * summed_bound(depth, moments.x, variance, least_variance, reduction);
+                seen.nearer += area * max(depth - moments.x, 0.0);
+                total += area;
+            }
+        }
+        above = before;
+    }
+    return Seen(seen.lit / max(total, 1.0), seen.nearer / max(total, 1.0));
+}
+
 /// point (point world; = @position_world; hidden): The shaded point.
 /// space (space; hidden): The light's space.
 /// table (map; hidden): Sums of depth and of its square.
@@ -47,27 +115,29 @@ fn summed_area_soft_shadow(
 ) -> f32 {
     let position = light_position(space, point);
     let plane = receiver_plane(space, position, geometric_normal(point));
-    let layer = light_layer(space);
     let size = vec2f(textureDimensions(table));
-    let scale = 1.0 / f32(1u << FRACTION_BITS);
     // As many texels of depth 1 as the sum of them has room for.
     let widest = vec2f(f32(1u << ((32u - FRACTION_BITS) / 2u)));
 
     // Occluders are nearer than the receiver and beyond the near plane: there the light appears largest.
-    let search_width = softness * source_width(space, position, size, space.depth.x);
-    let search = summed_box(plane.uv, clamp(search_width, vec2f(minimum_width), widest), size);
-    let seen = summed_mean(table, layer, search) * scale;
-    let behind = max(receiver_depth(space, plane, search.center) - seen.x, 1e-6);
-    let variance = max(seen.y - seen.x * seen.x, max(minimum_variance, 1e-12));
-    // mean = lit * receiver + (1 - lit) * occluder, with lit from Chebyshev's bound, solved for receiver - occluder.
-    let gap = (variance + behind * behind) / behind;
+    let largest = softness * source_width(space, position, size, space.depth.x);
+    let search = clamp(largest, vec2f(minimum_width), widest);
+    var found = Seen(1.0, 0.0);
+    if (min(search.x, search.y) < LEAST_CUT) {
+        found = seen_in_whole(space, plane, table, search, minimum_variance, 0.0);
+    } else {
+        found = seen_in_parts(space, plane, table, search, minimum_variance, 0.0);
+    }
+    // The mean over what is dark. Where next to nothing is, its distance does not matter.
+    let gap = found.nearer / max(1.0 - found.lit, 1e-3);
     let occluder = max(position.z - gap / space.depth.z, space.depth.x);
 
-    let penumbra = softness * source_width(space, position, size, occluder);
-    let region = summed_box(plane.uv, clamp(penumbra, vec2f(minimum_width), widest), size);
-    let moments = summed_mean(table, layer, region) * scale;
-    let depth = receiver_depth(space, plane, region.center);
-    let spread = moments.y - moments.x * moments.x;
-    let visibility = summed_bound(depth, moments.x, spread, minimum_variance, bleeding_reduction);
-    return select(visibility, 1.0, receives < 0.5 || outside_light_map(space, position, plane.uv));
+    let width = clamp(softness * source_width(space, position, size, occluder), vec2f(minimum_width), widest);
+    var filtered = Seen(1.0, 0.0);
+    if (min(width.x, width.y) < LEAST_CUT) {
+        filtered = seen_in_whole(space, plane, table, width, minimum_variance, bleeding_reduction);
+    } else {
+        filtered = seen_in_parts(space, plane, table, width, minimum_variance, bleeding_reduction);
+    }
+    return select(filtered.lit, 1.0, receives < 0.5 || outside_light_map(space, position, plane.uv));
 }
