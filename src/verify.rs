@@ -33,8 +33,8 @@ pub fn verify(module: &Module) -> Result<Verified, Vec<Diagnostic>> {
     checked.and_then(|r| r).map_err(|fault| fault.report(module))
 }
 
-/// Deepest brackets, most operators and members in a statement, and most branches, with which naga needs no more than half a small stack (2 MiB):
-/// it recurses over each, at no more than 8 KiB a level with optimisation off.
+/// Deepest brackets, most operators and members in a statement, and most branches, with which naga needs no more than half
+/// a small stack (2 MiB): it recurses over each, at no more than 8 KiB a level with optimisation off.
 const SHALLOW: usize = 64;
 /// Most declarations, which naga sorts by recursion over what they mention.
 const FEW: usize = 512;

@@ -11,14 +11,8 @@ use shadetree::node::{Definition, PassKind, Port};
 use shadetree::plan::Plan;
 use shadetree::semantic::{Kind, Shape};
 
-use crate::support::{catalog, compiled, graph_text, prove};
+use crate::support::{catalog, compiled, graph_text, kinds, prove};
 use crate::tint;
-
-/// Kinds of a category, sorted.
-fn kinds(category: &str) -> Vec<String> {
-    let of = |k: &&str| catalog().get(k).expect("listed").header().is_ok_and(|h| h.category == category);
-    catalog().kinds().filter(of).map(str::to_owned).collect()
-}
 
 fn accepted_by_tint(modules: &[(String, String)]) {
     let listed = modules.iter().map(|(name, wgsl)| (name.as_str(), wgsl.as_str()));

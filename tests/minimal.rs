@@ -11,13 +11,7 @@ use shadetree::node::mentions;
 use shadetree::render::RenderError;
 
 use crate::stage::{Item, Stage, View, gpu, light, skipped, woven};
-use crate::support::{catalog, compiled, files, graph_file, graph_text, root};
-
-/// Kinds of a category, sorted.
-fn kinds(category: &str) -> Vec<String> {
-    let of = |k: &&str| catalog().get(k).expect("listed").header().is_ok_and(|h| h.category == category);
-    catalog().kinds().filter(of).map(str::to_owned).collect()
-}
+use crate::support::{catalog, compiled, files, graph_file, graph_text, kinds, root};
 
 /// Every light under every shadow, on matte grey.
 fn pairs(options: &Options) -> Vec<(String, Compiled)> {

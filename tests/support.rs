@@ -83,6 +83,12 @@ pub fn prove(compiled: &Compiled, what: &str) {
     }
 }
 
+/// Kinds of nodes of a category, sorted.
+pub fn kinds(category: &str) -> Vec<String> {
+    let of = |k: &&str| catalog().get(k).expect("listed").header().is_ok_and(|h| h.category == category);
+    catalog().kinds().filter(of).map(str::to_owned).collect()
+}
+
 /// Diagnostics as people see them.
 pub fn show(found: &[Diagnostic]) -> String {
     found.iter().map(|d| format!("{} {:?}: {} {:?} {:?}\n", d.code, d.place.node, d.message, d.help, d.notes)).collect()

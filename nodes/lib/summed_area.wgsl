@@ -1,3 +1,4 @@
+//! use: chebyshev
 //! Boxes over a summed-area table (Crow 1984): each texel of the table is the sum of itself and all texels to its upper left.
 
 /// A box on a map. Along each axis it is a part of one texel, then whole texels, then a part of another.
@@ -117,7 +118,5 @@ fn summed_mean_float(map: texture_2d_array<f32>, layer: i32, region: SummedBox) 
 fn summed_bound(depth: f32, mean: f32, variance: f32, least_variance: f32, reduction: f32) -> f32 {
     let behind = max(depth - mean, 0.0);
     // 1e-12 keeps 0 / 0 out where both the variance and the difference vanish.
-    let spread = max(variance, max(least_variance, 1e-12));
-    let least = clamp(reduction, 0.0, 0.99);
-    return saturate((spread / (spread + behind * behind) - least) / (1.0 - least));
+    return reduce_bleeding(chebyshev_bound(max(variance, max(least_variance, 1e-12)), behind), reduction);
 }

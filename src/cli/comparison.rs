@@ -1,6 +1,5 @@
 //! One row per kind of shadow: picture, visibility, error against the truth, and the figures.
 
-use std::collections::BTreeMap;
 use std::path::PathBuf;
 
 use font8x8::legacy::BASIC_LEGACY;
@@ -12,7 +11,7 @@ use super::context::Context;
 use super::exit::{Exit, Failure, Outcome};
 use super::load::{Document, Loader};
 use super::output;
-use super::picture::{Drawn, failure, late, pixels};
+use super::picture::{Drawn, failure, late, pixels, unwritable};
 use super::render::{Aov, Reference, Render, Samples, adapter_options};
 use super::settings::{Assignment, Target};
 use super::truth;
@@ -50,30 +49,37 @@ pub(super) fn run(command: &Compare, context: &Context) -> Outcome {
     // Every shadow pays for its own maps.
     gpu.keep_maps(0);
     let mut gpu = Some(gpu);
-    let mut truths: BTreeMap<String, Vec<[f32; 4]>> = BTreeMap::new();
+    let quiet = Context { quiet: true, ..*context };
+    let visibility = Output::Visibility(command.light.clone());
+    // Rays know nothing of a shadow, so that one picture of them serves all kinds.
+    let mut by_rays: Option<Vec<[f32; 4]>> = None;
     let mut rows = Vec::new();
     let mut adapter = String::new();
     for kind in &kinds {
-        let quiet = Context { quiet: true, ..*context };
         let has_width = catalog.get(kind).and_then(|f| f.header().ok()).is_some_and(|h| {
             h.options.iter().any(|o| o.name == "width") && h.options.iter().any(|o| o.name == "weights")
         });
         let reference = command.reference.unwrap_or(if has_width { Reference::Pcf } else { Reference::Rays });
-        let visibility = Output::Visibility(command.light.clone());
-        let ask = |output: Output| asked(command, &shadow, kind, output);
-        let seen = pixels(&ask(visibility.clone()), &quiet, &loader, &mut gpu)?;
-        let truth_command = Render { reference: Some(reference), ..ask(visibility) };
-        // Shadows with the same kernel have the same truth.
-        let key = format!("{reference:?} {}", if reference == Reference::Pcf { kind.as_str() } else { "" });
-        if !truths.contains_key(&key) {
-            truths.insert(key.clone(), truth::pixels(&truth_command, &quiet, &loader)?.0);
-        }
-        let truth = &truths[&key];
+        let ask = |output: &Output| asked(command, &shadow, kind, output.clone());
+        let seen = pixels(&ask(&visibility), &quiet, &loader, &mut gpu)?;
+        let compute = || {
+            let command = Render { reference: Some(reference), ..ask(&visibility) };
+            truth::pixels(&command, &quiet, &loader).map(|(pixels, _)| pixels)
+        };
+        let filtered;
+        let truth = match (reference, &mut by_rays) {
+            (Reference::Pcf, _) => {
+                filtered = compute()?;
+                &filtered
+            }
+            (Reference::Rays, Some(known)) => known,
+            (Reference::Rays, unknown) => unknown.insert(compute()?),
+        };
         let pairs = seen.pixels.iter().zip(truth).filter(|(a, b)| a[3] > 0.0 && b[3] > 0.0);
         let metrics = Metrics::new(pairs.map(|(a, b)| (f64::from(a[0]), f64::from(b[0]))));
         let pictures = match &command.output {
             Some(_) => {
-                let lit = pixels(&ask(Output::Radiance), &quiet, &loader, &mut gpu)?;
+                let lit = pixels(&ask(&Output::Radiance), &quiet, &loader, &mut gpu)?;
                 Some([decoded(&lit, ToneCurve::Filmic)?, decoded(&seen, ToneCurve::None)?, error_map(&seen, truth)])
             }
             None => None,
@@ -91,9 +97,7 @@ pub(super) fn run(command: &Compare, context: &Context) -> Outcome {
     output::print(if context.is_json() { listed(&rows, &adapter) } else { table(&rows, &adapter) }.as_bytes())?;
     if let Some(path) = &command.output {
         let mut bytes = std::io::Cursor::new(Vec::new());
-        sheet(&rows, &adapter)
-            .write_to(&mut bytes, image::ImageFormat::Png)
-            .map_err(|e| Failure::from(vec![Diagnostic::error("ST0514", e.to_string(), Place::default())]))?;
+        sheet(&rows, &adapter).write_to(&mut bytes, image::ImageFormat::Png).map_err(unwritable)?;
         output::write(path, bytes.get_ref())?;
     }
     Ok(Exit::Done)
@@ -118,10 +122,8 @@ fn shadow_of(command: &Compare, loader: &Loader, catalog: &Catalog) -> Result<St
     let path = super::load::relative(&light.graph.path, &command.scene.display().to_string());
     let graph = loader.named_graph(&path, &light.name, light.graph.span.as_ref());
     let graph = graph.ok_or_else(|| Failure::from(loader.take_found()))?;
-    let is_shadow =
-        |kind: &str| catalog.get(kind).and_then(|f| f.header().ok()).is_some_and(|h| h.category == "shadow");
-    let shadows: Vec<&String> =
-        graph.graph.nodes.iter().filter(|(_, n)| is_shadow(&n.kind)).map(|(name, _)| name).collect();
+    let nodes = graph.graph.nodes.iter().filter(|(_, node)| is_shadow(catalog, &node.kind));
+    let shadows: Vec<&String> = nodes.map(|(name, _)| name).collect();
     match shadows[..] {
         [shadow] => Ok(format!("{}/{shadow}", light.name)),
         _ => {
@@ -131,10 +133,12 @@ fn shadow_of(command: &Compare, loader: &Loader, catalog: &Catalog) -> Result<St
     }
 }
 
+fn is_shadow(catalog: &Catalog, kind: &str) -> bool {
+    catalog.get(kind).and_then(|f| f.header().ok()).is_some_and(|h| h.category == "shadow")
+}
+
 fn kinds(command: &Compare, catalog: &Catalog) -> Result<Vec<String>, Failure> {
-    let is_shadow =
-        |kind: &&str| catalog.get(kind).and_then(|f| f.header().ok()).is_some_and(|h| h.category == "shadow");
-    let all: Vec<&str> = catalog.kinds().filter(is_shadow).collect();
+    let all: Vec<&str> = catalog.kinds().filter(|kind| is_shadow(catalog, kind)).collect();
     if let Some(wrong) = command.only.iter().find(|kind| !all.contains(&kind.as_str())) {
         let message = format!("`{wrong}` is not a kind of shadow");
         return Err(Failure::usage(message, format!("kinds are {}", all.join(", "))));
@@ -167,10 +171,9 @@ fn asked(command: &Compare, shadow: &str, kind: &str, output: Output) -> Render 
 
 /// As a screen shows it.
 fn decoded(drawn: &Drawn, tone: ToneCurve) -> Result<RgbaImage, Failure> {
-    let fail = |message: String| Failure::from(vec![Diagnostic::error("ST0514", message, Place::default())]);
     let display = Display { tone, ..Display::default() };
-    let bytes = encode_png(drawn.size, &drawn.pixels, &display, &[]).map_err(|e| fail(e.to_string()))?;
-    Ok(image::load_from_memory(&bytes).map_err(|e| fail(e.to_string()))?.into_rgba8())
+    let bytes = encode_png(drawn.size, &drawn.pixels, &display, &[]).map_err(unwritable)?;
+    Ok(image::load_from_memory(&bytes).map_err(unwritable)?.into_rgba8())
 }
 
 /// White where right, red where too light, blue where too dark; full colour at a difference of a quarter.

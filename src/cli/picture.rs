@@ -115,7 +115,7 @@ pub(super) fn save(
     } else {
         encode_png(size, pixels, &Display { tone, ..Display::default() }, &notes)
     };
-    let bytes = bytes.map_err(|e| failure(RenderError::Job(e.to_string())))?;
+    let bytes = bytes.map_err(unwritable)?;
     output::write(&command.output, &bytes)?;
     context.detail(&format!("wrote {}", command.output.display()));
     Ok(())
@@ -267,6 +267,12 @@ pub(super) fn late(context: &Context, message: &'static str, steps: Option<u64>)
         }
     });
     bar
+}
+
+/// A picture that cannot be written in the form that was asked for.
+#[allow(clippy::needless_pass_by_value, reason = "for `map_err`")]
+pub(super) fn unwritable(error: impl ToString) -> Failure {
+    failure(RenderError::Job(error.to_string()))
 }
 
 pub(super) fn failure(error: RenderError) -> Failure {

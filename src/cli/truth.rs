@@ -63,7 +63,7 @@ pub(super) fn pixels(command: &Render, context: &Context, loader: &Loader) -> Re
         _ => None,
     };
     if let Some(filter) = &filter
-        && let Some(cut) = cut(&woven, filter.size)
+        && let Some(cut) = cut(&woven, filter.size)?
     {
         light = light.cut(&cut, &camera, command.size, &world);
     }

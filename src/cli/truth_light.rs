@@ -5,6 +5,7 @@ use super::exit::Failure;
 use super::render::Render;
 use super::truth::no_truth;
 use crate::module::stored;
+use crate::node::SpaceSpec;
 use crate::reference::{Cut, Filter, Light, Taps, Weights, World, kernel};
 use crate::weave::{Node, Root, Wire, Woven};
 
@@ -22,19 +23,23 @@ pub(super) fn light(woven: &Woven, world: &World) -> Result<Light, Failure> {
         let message = format!("it is not known where the light `{}` shines from", node.id);
         return Err(fail(message, "take a light node that has a `space:` line, such as `spot_light`"));
     };
-    let mut inputs = Vec::new();
-    for name in space.inputs_of(&node.definition) {
-        let port = node.definition.input(name);
-        let (Some(Wire::Value(value)), Some(port)) = (node.inputs.get(name), port) else {
-            let message = format!("`{name}` of the light `{}` comes from a link", node.id);
-            return Err(fail(message, "the place of a light must be values: set it under `params`"));
-        };
-        inputs.push(stored(value, &port.ty.shape, &port.unit));
-    }
+    let inputs = inputs(node, space)?;
     let message = |m: String| format!("the light `{}`: {m}", node.id);
     Light::projected(&space.projection, &inputs, world).map_err(|m| {
         fail(message(m), "the inputs named by the `space:` line of the light must be numbers that make sense")
     })
+}
+
+/// The values of the inputs that a light's maps are made from, in metres and radians.
+fn inputs(node: &Node, space: &SpaceSpec) -> Result<Vec<Vec<f64>>, Failure> {
+    let value_of = |name: &String| match (node.inputs.get(name), node.definition.input(name)) {
+        (Some(Wire::Value(value)), Some(port)) => Ok(stored(value, &port.ty.shape, &port.unit)),
+        _ => {
+            let message = format!("`{name}` of the light `{}` comes from a link", node.id);
+            Err(no_truth(message, "the place of a light must be values: set it under `params`", node.place()))
+        }
+    };
+    space.inputs_of(&node.definition).map(value_of).collect()
 }
 
 /// The filter of the first shadow on that light, from what its options named `size`, `width`, `weights` and `taps` say,
@@ -84,30 +89,23 @@ pub(super) fn filter(woven: &Woven, command: &Render, context: &Context) -> Resu
 }
 
 /// How the maps of the light are cut into parts, if they are.
-pub(super) fn cut(woven: &Woven, side: u32) -> Option<Cut> {
-    let (light, _) = wanted(woven).ok()?;
+pub(super) fn cut(woven: &Woven, side: u32) -> Result<Option<Cut>, Failure> {
+    let (light, _) = wanted(woven)?;
     let definition = &light.definition;
-    let space = definition.header.space.as_ref()?;
-    let parts = space.views(definition);
-    if parts == 1 || space.projection != "orthographic" {
-        return None;
-    }
-    let names: Vec<&String> = space.inputs_of(definition).collect();
-    let number = |index: usize| match light.inputs.get(names.get(index)?) {
-        Some(Wire::Value(value)) => {
-            let port = definition.input(names[index])?;
-            stored(value, &port.ty.shape, &port.unit).first().copied()
-        }
-        _ => None,
+    let space = definition.header.space.as_ref().filter(|s| s.projection == "orthographic");
+    let Some((space, parts)) = space.map(|s| (s, s.views(definition))).filter(|(_, parts)| *parts > 1) else {
+        return Ok(None);
     };
-    Some(Cut {
+    let inputs = inputs(light, space)?;
+    let number = |index: usize| inputs.get(index).and_then(|i| i.first()).copied().unwrap_or_default();
+    Ok(Some(Cut {
         parts,
-        balance: number(4)?,
-        reach: number(5)?,
+        balance: number(4),
+        reach: number(5),
         stable: space.setting(definition, "fit") == "stable",
         blend: space.blends(definition),
         side,
-    })
+    }))
 }
 
 /// The light that is wanted and the shadows on it.

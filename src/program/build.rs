@@ -132,16 +132,13 @@ fn root(program: &mut Program, woven: &Woven, worth: &[Worth]) -> Option<Id> {
         }
         Root::Visibility { light, shadows } => {
             let mut terms = Vec::new();
-            let shadows = if program.unshadowed { &[][..] } else { &shadows[..] };
-            for shadow in shadows {
-                let scalar = woven.nodes[*shadow].definition.main.outputs[0].ty.shape.width() == Some(1);
-                if let Some(visibility) = worth[*shadow].lit.get(light).and_then(|o| o.first()) {
-                    terms.push(if scalar {
-                        program.template("vec3f($0)", vec![*visibility], "visibility", None)
-                    } else {
-                        *visibility
-                    });
-                }
+            for (shadow, visibility) in program.visibilities(worth, *light, shadows) {
+                let scalar = woven.nodes[shadow].definition.main.outputs[0].ty.shape.width() == Some(1);
+                terms.push(if scalar {
+                    program.template("vec3f($0)", vec![visibility], "visibility", None)
+                } else {
+                    visibility
+                });
             }
             if terms.is_empty() {
                 return Some(program.add(Op::Literal("vec3f(1.0)".into()), Vec::new(), "visibility", None));

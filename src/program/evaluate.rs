@@ -222,13 +222,17 @@ impl Program {
         let output = definition.main.outputs.iter().find(|o| o.ty.meaning.quantity == Quantity::Irradiance)?;
         let here = Context { light: Some(light), ..*context };
         let mut factors = vec![here.output(light, &output.name)?];
-        let mut shadows = if self.unshadowed { Vec::new() } else { shadows.to_vec() };
+        let mut shadows = shadows.to_vec();
         shadows.sort_by(|a, b| self.nodes[*a].id.cmp(&self.nodes[*b].id));
-        for shadow in shadows {
-            factors.extend(here.worth[shadow].lit.get(&light).and_then(|o| o.first()));
-        }
+        factors.extend(self.visibilities(here.worth, light, &shadows).into_iter().map(|(_, visibility)| visibility));
         let name = format!("{}_irradiance", self.nodes[light].short);
         Some(self.fold("*", &factors, &name))
+    }
+
+    /// What shadows say under a light, each with its node; nothing where they are left out.
+    pub(crate) fn visibilities(&self, worth: &[Worth], light: usize, shadows: &[usize]) -> Vec<(usize, Id)> {
+        let of = |shadow: &usize| Some((*shadow, *worth[*shadow].lit.get(&light)?.first()?));
+        shadows.iter().filter(|_| !self.unshadowed).filter_map(of).collect()
     }
 
     /// The operands joined by an operator.

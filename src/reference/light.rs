@@ -19,20 +19,24 @@ pub struct Light {
     pub choice: Choice,
     /// Whether it shines within its views alone. Then points outside count as lit, as nothing can be seen of a shadow there.
     pub bounded: bool,
-    /// Where the view of an eye is cut, if it is: the eye, the direction that it looks in, and the distances at which all
-    /// parts but the last end.
-    pub cuts: Option<(DVec3, DVec3, Vec<f64>)>,
 }
 
 /// Which of several views a point is looked up in.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq)]
 pub enum Choice {
     /// The one that sees it nearest to its axis: faces of a cube, which are wider than a right angle.
     Axis,
     /// The first one that holds it.
     First,
-    /// The one for its distance from the eye.
-    Distance,
+    /// The one for its distance from an eye.
+    Distance {
+        /// The eye.
+        eye: DVec3,
+        /// The direction that it looks in, of length 1.
+        forward: DVec3,
+        /// Distances at which all parts but the last end.
+        ends: Vec<f64>,
+    },
 }
 
 impl Light {
@@ -48,8 +52,7 @@ impl Light {
     /// Answers what is wrong, as a sentence.
     pub fn projected(projection: &str, inputs: &[Vec<f64>], world: &World) -> Result<Self, String> {
         let inputs = Inputs(inputs);
-        let one =
-            |source, view, bounded| Self { source, views: vec![view], choice: Choice::First, bounded, cuts: None };
+        let one = |source, view, bounded| Self { source, views: vec![view], choice: Choice::First, bounded };
         match projection {
             "perspective" => {
                 let view = inputs.cone()?;
@@ -64,13 +67,7 @@ impl Light {
             "cube" => {
                 let (center, near) = (inputs.vector(0)?, inputs.length(1)?);
                 let source = Source::Ball { center, radius: inputs.length(3)? };
-                Ok(Self {
-                    source,
-                    views: View::cube(center, near).into(),
-                    choice: Choice::Axis,
-                    bounded: false,
-                    cuts: None,
-                })
+                Ok(Self { source, views: View::cube(center, near).into(), choice: Choice::Axis, bounded: false })
             }
             "orthographic" => {
                 let (axis, mut center, mut radius) = (inputs.axis(0)?, inputs.vector(1)?, inputs.length(2)?);
@@ -94,10 +91,9 @@ impl Light {
     pub fn view_of(&self, point: DVec3) -> Option<usize> {
         let holds = |i: &usize| self.views[*i].holds(self.views[*i].point(point));
         let mut all = 0..self.views.len();
-        match self.choice {
+        match &self.choice {
             Choice::First => all.find(holds),
-            Choice::Distance => {
-                let (eye, forward, ends) = self.cuts.as_ref()?;
+            Choice::Distance { eye, forward, ends } => {
                 let distance = (point - eye).dot(*forward);
                 Some(ends.iter().filter(|end| distance > **end).count()).filter(holds)
             }

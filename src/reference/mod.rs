@@ -11,6 +11,7 @@ mod bvh;
 mod fine_map;
 mod footprint;
 mod exponential;
+mod eye;
 mod hamburger;
 mod kernel;
 mod layers;

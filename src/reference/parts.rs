@@ -1,7 +1,8 @@
 //! Maps of parallel light that are cut into parts along the view (parallel-split shadow maps, Zhang et al. 2006).
 
-use glam::{DMat3, DVec2, DVec3};
+use glam::{DVec2, DVec3};
 
+use super::eye::Eye;
 use super::light::{Choice, Light};
 use super::view::View;
 use super::world::World;
@@ -29,85 +30,6 @@ pub struct Cut {
     pub side: u32,
 }
 
-/// The camera in float64.
-struct Eye {
-    position: DVec3,
-    /// Right, up and forward, as rows.
-    axes: DMat3,
-    /// Half width and half height at distance 1.
-    half: DVec2,
-    range: (f64, f64),
-}
-
-impl Eye {
-    fn new(camera: &Camera, (columns, rows): (u32, u32)) -> Self {
-        let position = camera.position.as_dvec3();
-        let forward = (camera.target.as_dvec3() - position).normalize_or(DVec3::NEG_Z);
-        let right = forward.cross(camera.up.as_dvec3()).normalize_or(DVec3::X);
-        let high = (f64::from(camera.fov_y) / 2.0).tan();
-        Self {
-            position,
-            axes: DMat3::from_cols(right, right.cross(forward), forward).transpose(),
-            half: DVec2::new(high * f64::from(columns.max(1)) / f64::from(rows.max(1)), high),
-            range: (f64::from(camera.near), f64::from(camera.far)),
-        }
-    }
-
-    /// World point of a place of the picture (-1 to 1, y up) at a distance along the axis.
-    fn at(&self, place: DVec2, distance: f64) -> DVec3 {
-        self.position + self.axes.transpose() * ((place * self.half).extend(1.0) * distance)
-    }
-
-    /// Least and greatest distance of what is seen of boxes, given by their corners.
-    fn reach(&self, boxes: &[[DVec3; 8]]) -> (f64, f64) {
-        const FACES: [[usize; 4]; 6] =
-            [[0, 1, 3, 2], [4, 5, 7, 6], [0, 1, 5, 4], [2, 3, 7, 6], [0, 2, 6, 4], [1, 3, 7, 5]];
-        let (near, far) = self.range;
-        // Planes of what is seen: n.p >= d.
-        let sides = [
-            (DVec3::new(1.0, 0.0, self.half.x), 0.0),
-            (DVec3::new(-1.0, 0.0, self.half.x), 0.0),
-            (DVec3::new(0.0, 1.0, self.half.y), 0.0),
-            (DVec3::new(0.0, -1.0, self.half.y), 0.0),
-            (DVec3::Z, near),
-            (DVec3::NEG_Z, -far),
-        ];
-        let mut found: Option<(f64, f64)> = None;
-        let mut add = |z: f64| found = Some(found.map_or((z, z), |(a, b)| (z.min(a), z.max(b))));
-        for corners in boxes {
-            let corners = corners.map(|c| self.axes * (c - self.position));
-            // Corner numbers count the axes of the box in their bits.
-            let inside = [1, 2, 4].iter().all(|i| {
-                let edge = corners[*i] - corners[0];
-                let along = -corners[0].dot(edge);
-                along > 0.0 && along < edge.length_squared()
-            });
-            if inside {
-                add(near);
-            }
-            for face in FACES {
-                let mut polygon: Vec<DVec3> = face.iter().map(|i| corners[*i]).collect();
-                for (normal, least) in sides {
-                    let over = |p: DVec3| normal.dot(p) - least;
-                    let mut kept = Vec::new();
-                    for (i, a) in polygon.iter().enumerate() {
-                        let b = polygon[(i + 1) % polygon.len()];
-                        if over(*a) >= 0.0 {
-                            kept.push(*a);
-                        }
-                        if (over(*a) >= 0.0) != (over(b) >= 0.0) {
-                            kept.push(a.lerp(b, over(*a) / (over(*a) - over(b))));
-                        }
-                    }
-                    polygon = kept;
-                }
-                polygon.iter().for_each(|p| add(p.z));
-            }
-        }
-        found.unwrap_or(self.range)
-    }
-}
-
 impl Light {
     /// This light, which has one parallel view, with that cut into parts for a camera whose picture has these columns and
     /// rows. Where parts go over into each other the nearer one is looked at alone.
@@ -120,7 +42,7 @@ impl Light {
             let far = if cut.reach > 0.0 { cut.reach } else { (2.0 * radius).min(eye.range.1) };
             (eye.range.0.max(far * 1e-3), far)
         } else {
-            let (near, far) = eye.reach(world.boxes());
+            let (near, far) = reach(&eye, world.boxes());
             (near, if cut.reach > 0.0 { far.min(cut.reach) } else { far })
         };
         let far = far.max(near * 1.001);
@@ -140,10 +62,57 @@ impl Light {
             begin = if cut.blend { end * (1.0 - OVERLAP) } else { end };
         }
         ends.pop();
-        self.choice = Choice::Distance;
-        self.cuts = Some((eye.position, eye.axes.transpose() * DVec3::Z, ends));
+        self.choice = Choice::Distance { eye: eye.position, forward: eye.forward, ends };
         self
     }
+}
+
+/// Least and greatest distance of what is seen of boxes, given by their corners.
+fn reach(eye: &Eye, boxes: &[[DVec3; 8]]) -> (f64, f64) {
+    const FACES: [[usize; 4]; 6] = [[0, 1, 3, 2], [4, 5, 7, 6], [0, 1, 5, 4], [2, 3, 7, 6], [0, 2, 6, 4], [1, 3, 7, 5]];
+    let (near, far) = eye.range;
+    // Planes of what is seen: n.p >= d.
+    let sides = [
+        (DVec3::new(1.0, 0.0, eye.half.x), 0.0),
+        (DVec3::new(-1.0, 0.0, eye.half.x), 0.0),
+        (DVec3::new(0.0, 1.0, eye.half.y), 0.0),
+        (DVec3::new(0.0, -1.0, eye.half.y), 0.0),
+        (DVec3::Z, near),
+        (DVec3::NEG_Z, -far),
+    ];
+    let mut found: Option<(f64, f64)> = None;
+    let mut add = |z: f64| found = Some(found.map_or((z, z), |(a, b)| (z.min(a), z.max(b))));
+    for corners in boxes {
+        let corners = corners.map(|c| eye.seen(c));
+        // Corner numbers count the axes of the box in their bits.
+        let inside = [1, 2, 4].iter().all(|i| {
+            let edge = corners[*i] - corners[0];
+            let along = -corners[0].dot(edge);
+            along > 0.0 && along < edge.length_squared()
+        });
+        if inside {
+            add(near);
+        }
+        for face in FACES {
+            let mut polygon: Vec<DVec3> = face.iter().map(|i| corners[*i]).collect();
+            for (normal, least) in sides {
+                let over = |p: DVec3| normal.dot(p) - least;
+                let mut kept = Vec::new();
+                for (i, a) in polygon.iter().enumerate() {
+                    let b = polygon[(i + 1) % polygon.len()];
+                    if over(*a) >= 0.0 {
+                        kept.push(*a);
+                    }
+                    if (over(*a) >= 0.0) != (over(b) >= 0.0) {
+                        kept.push(a.lerp(b, over(*a) / (over(*a) - over(b))));
+                    }
+                }
+                polygon = kept;
+            }
+            polygon.iter().for_each(|p| add(p.z));
+        }
+    }
+    found.unwrap_or(eye.range)
 }
 
 /// The rectangle around what is seen between two distances, within the whole view.

@@ -3,8 +3,9 @@
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 
-use glam::DVec3;
+use glam::DVec2;
 
+use super::eye::Eye;
 use super::fine_map::{Filter, FineMap};
 use super::light::Light;
 use super::ray::Ray;
@@ -39,15 +40,10 @@ pub struct Watch<'a> {
 /// The ray from the eye through the centre of a pixel, of pixels in rows from the top; distances along it are along the
 /// view axis.
 pub fn eye_ray(camera: &Camera, size: (u32, u32), pixel: (u32, u32)) -> Ray {
-    let origin = camera.position.as_dvec3();
-    let forward = (camera.target.as_dvec3() - origin).normalize_or(DVec3::NEG_Z);
-    let right = forward.cross(camera.up.as_dvec3()).normalize_or(DVec3::X);
-    let up = right.cross(forward);
-    let half = (f64::from(camera.fov_y) / 2.0).tan();
+    let eye = Eye::new(camera, size);
     let across = |i: u32, n: u32| (2.0 * f64::from(i) + 1.0) / f64::from(n) - 1.0;
-    let x = across(pixel.0, size.0) * half * f64::from(size.0) / f64::from(size.1);
-    let y = -across(pixel.1, size.1) * half;
-    Ray { origin, direction: forward + right * x + up * y, near: f64::from(camera.near), far: f64::from(camera.far) }
+    let place = DVec2::new(across(pixel.0, size.0), -across(pixel.1, size.1));
+    Ray { origin: eye.position, direction: eye.towards(place), near: eye.range.0, far: eye.range.1 }
 }
 
 /// What is seen through the centre of each pixel, rows from the top; none where it is nothing. None at all if cancelled.
@@ -149,7 +145,7 @@ mod tests {
     use super::*;
     use crate::reference::{Body, Taps, Weights, kernel};
     use crate::scene::Shape;
-    use glam::{Mat4, Vec3};
+    use glam::{DVec3, Mat4, Vec3};
 
     fn camera() -> Camera {
         Camera {

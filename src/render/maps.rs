@@ -26,6 +26,8 @@ pub(super) struct MapPlan<'a> {
     /// One per view, which is one per layer.
     pub(super) views: Vec<LightSpace>,
     filtered: bool,
+    /// Texels on a side of what is drawn first.
+    size: u32,
     /// One per pass.
     pub(super) steps: Vec<Step>,
 }
@@ -78,13 +80,15 @@ impl<'a> LightPlans<'a> {
                 if index == plans.maps.len() {
                     let passes = runnable(device, &map.light, &map.passes, &mut plans.messages)?;
                     check_passes(&map.light, &passes)?;
-                    device.check_texture(&format!("a map of `{}`", map.light), map.size(), map.size())?;
+                    let size = map.size();
+                    device.check_texture(&format!("a map of `{}`", map.light), size, size)?;
                     plans.maps.push(MapPlan {
                         light: &map.light,
                         passes,
                         planned: &map.passes,
                         views: views.clone(),
                         filtered: false,
+                        size,
                         steps: Vec::new(),
                     });
                 }
@@ -225,7 +229,7 @@ impl MapPlan<'_> {
                 _ => runs.push((targets, 1)),
             }
         }
-        let mut side = self.passes[0].number("size").unwrap_or(1024);
+        let mut side = self.size;
         let mut position = 0;
         for (index, (names, passes)) in runs.iter().enumerate() {
             let run = &self.passes[position..position + passes];

@@ -4,7 +4,7 @@ use glam::{DMat4, DVec3};
 use shadetree::render::RenderError;
 
 use crate::stage::{Item, Stage, View, gpu, skipped, visibility};
-use crate::support::catalog;
+use crate::support::kinds;
 
 /// Kinds of lights with what puts them 4 m above the ground, shining down on 4 m of it; small, where they have a size.
 const LIGHTS: [(&str, &str, &str); 6] = [
@@ -47,10 +47,9 @@ fn stage() -> Stage {
 #[test]
 fn every_shadow_on_every_light_tells_light_from_dark() {
     let Some(mut gpu) = gpu() else { return };
-    let is_shadow = |k: &&str| catalog().get(k).expect("listed").header().is_ok_and(|h| h.category == "shadow");
     let mut pairs = 0;
     for (light, lamp, lamp_options) in LIGHTS {
-        for shadow in catalog().kinds().filter(is_shadow) {
+        for shadow in kinds("shadow") {
             let name = format!("{light} {lamp_options} {shadow}");
             let shader = visibility(&format!(
                 "Graph(version: 1, nodes: {{\"lamp\": (kind: \"{light}\", params: {{{lamp}}}, options: \

@@ -155,20 +155,24 @@ fn program(scene: &Path, light: &str, more: &[&str], out: &Path) -> Vec<Option<f
     image.expect("an OpenEXR picture").layer_data.channel_data.pixels.1
 }
 
+/// Visibility of a light in an example scene with another light graph, as it is rendered and as it ought to be.
+fn drawn_and_true(name: &str, (from, to): (&str, &str), light: &str, asked: &[&str]) -> [Vec<Option<f64>>; 2] {
+    let folder = tempfile::tempdir().expect("a folder");
+    let (scene, out) = (folder.path().join("scene.ron"), folder.path().join("out.exr"));
+    let graphs = root().join("graphs").display().to_string();
+    let example = text(format!("graphs/scenes/{name}.ron").as_ref()).text.replace("\"../", &format!("\"{graphs}/"));
+    std::fs::write(&scene, example.replace(from, to)).expect("written");
+    let reference = [asked, &["--reference", "pcf", "--reference-samples", "4"]].concat();
+    [asked, &reference].map(|asked| program(&scene, light, asked, &out))
+}
+
 #[test]
 fn the_car_is_shadowed_as_the_truth_says() {
     if gpu().is_none() {
         return;
     }
-    let folder = tempfile::tempdir().expect("a folder");
-    let graphs = root().join("graphs").display().to_string();
-    let car = text("graphs/scenes/car.ron".as_ref()).text.replace("\"../", &format!("\"{graphs}/"));
-    let scene = folder.path().join("car.ron");
-    std::fs::write(&scene, car.replace("spot_soft", "spot_pcf")).expect("written");
-    let out = folder.path().join("out.exr");
-    let size = ["--option", "shadow.size=1024"];
-    let drawn = program(&scene, "spot", &size, &out);
-    let truth = program(&scene, "spot", &[size[0], size[1], "--reference", "pcf", "--reference-samples", "4"], &out);
+    let asked = ["--option", "shadow.size=1024"];
+    let [drawn, truth] = drawn_and_true("car", ("spot_soft", "spot_pcf"), "spot", &asked);
     let pairs: Vec<(f64, f64)> = drawn.iter().zip(&truth).filter_map(|(a, b)| Some(((*a)?, (*b)?))).collect();
     let differ = drawn.iter().zip(&truth).filter(|(a, b)| a.is_some() != b.is_some()).count();
     // The map knows edges to half a texel, over which the filter changes by at most its greatest weight times that. What
@@ -203,18 +207,11 @@ fn the_parts_of_a_view_are_filtered_as_the_truth_says() {
     if gpu().is_none() {
         return;
     }
-    let folder = tempfile::tempdir().expect("a folder");
-    let graphs = root().join("graphs").display().to_string();
-    let grazing = text("graphs/scenes/grazing.ron".as_ref()).text.replace("\"../", &format!("\"{graphs}/"));
-    let (scene, out) = (folder.path().join("grazing.ron"), folder.path().join("out.exr"));
-    std::fs::write(&scene, grazing.replace("sun_fine", "sun_splits")).expect("written");
     let snapped = kernel(Weights::Gaussian, 3).into_iter().fold(0.0, f64::max) * 0.5;
     for fit in ["tight", "stable"] {
         let fit = format!("sun.fit={fit}");
         let asked = ["--kind", "shadow=pcf_shadow", "--option", "shadow.width=3", "--option", &fit];
-        let drawn = program(&scene, "sun", &asked, &out);
-        let truth = [&asked[..], &["--reference", "pcf", "--reference-samples", "4"]].concat();
-        let truth = program(&scene, "sun", &truth, &out);
+        let [drawn, truth] = drawn_and_true("grazing", ("sun_fine", "sun_splits"), "sun", &asked);
         let pairs: Vec<(f64, f64)> = drawn.iter().zip(&truth).filter_map(|(a, b)| Some(((*a)?, (*b)?))).collect();
         let count = |test: &dyn Fn(f64, f64) -> bool| pairs.iter().filter(|(a, b)| test(*a, *b)).count();
         let shadow = count(&|_, truth| truth < 0.5);

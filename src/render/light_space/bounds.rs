@@ -42,21 +42,11 @@ impl Bounds {
     /// Least and greatest z, in a frame, of what lies in the column |x|, |y| <= `radius` of that frame. Both are 0 where
     /// the column is empty.
     pub(super) fn depth_in_column(&self, world_to_frame: Mat4, radius: f32) -> (f32, f32) {
-        let mut range: Option<(f32, f32)> = None;
-        for corners in &self.corners {
-            let corners = corners.map(|c| world_to_frame.transform_point3(c));
-            for face in FACES {
-                for point in clip_to_column(face.iter().map(|i| corners[*i]).collect(), radius) {
-                    let (low, high) = range.unwrap_or((point.z, point.z));
-                    range = Some((low.min(point.z), high.max(point.z)));
-                }
-            }
-        }
-        range.unwrap_or_default()
+        let sides = [Vec3::X, Vec3::NEG_X, Vec3::Y, Vec3::NEG_Y].map(|side| side.extend(radius));
+        range(self.boxes(|c| world_to_frame.transform_point3(c)).flat_map(|corners| clipped(&corners, &sides)))
+            .unwrap_or_default()
     }
-}
 
-impl Bounds {
     /// Least and greatest distance along the eye's axis of the boxes' parts that it sees. None where it sees nothing.
     pub(super) fn seen(&self, eye: &Eye) -> Option<(f32, f32)> {
         let (half_width, half_height) = eye.half;
@@ -68,27 +58,31 @@ impl Bounds {
             Vec4::new(0.0, 0.0, 1.0, -eye.range.0),
             Vec4::new(0.0, 0.0, -1.0, eye.range.1),
         ];
-        let mut range: Option<(f32, f32)> = None;
-        let mut add = |z: f32| {
-            let (low, high) = range.unwrap_or((z, z));
-            range = Some((low.min(z), high.max(z)));
-        };
-        for corners in &self.corners {
-            let corners = corners.map(|c| {
-                let offset = c - eye.position;
-                Vec3::new(offset.dot(eye.right), offset.dot(eye.up), offset.dot(eye.forward))
-            });
-            if around_origin(&corners) {
-                // What is in a box may lie anywhere in it.
-                add(eye.range.0);
-            }
-            for face in FACES {
-                let polygon = face.iter().map(|i| corners[*i]).collect();
-                clip(polygon, &sides).iter().for_each(|p| add(p.z));
-            }
-        }
-        range
+        let boxes = self.boxes(|c| {
+            let offset = c - eye.position;
+            Vec3::new(offset.dot(eye.right), offset.dot(eye.up), offset.dot(eye.forward))
+        });
+        range(boxes.flat_map(|corners| {
+            // What is in a box around the eye may lie anywhere in it.
+            let nearest = around_origin(&corners).then_some(eye.range.0);
+            clipped(&corners, &sides).into_iter().chain(nearest)
+        }))
     }
+
+    /// The corners of each box in another frame.
+    fn boxes(&self, to_frame: impl Fn(Vec3) -> Vec3) -> impl Iterator<Item = [Vec3; 8]> {
+        self.corners.iter().map(move |corners| corners.map(&to_frame))
+    }
+}
+
+/// Least and greatest of some numbers.
+fn range(numbers: impl Iterator<Item = f32>) -> Option<(f32, f32)> {
+    numbers.map(|z| (z, z)).reduce(|(low, high), (z, _)| (low.min(z), high.max(z)))
+}
+
+/// The z of the corners of what `sides` leave of a box's faces.
+fn clipped(corners: &[Vec3; 8], sides: &[Vec4]) -> Vec<f32> {
+    FACES.iter().flat_map(|face| clip(face.iter().map(|i| corners[*i]).collect(), sides)).map(|p| p.z).collect()
 }
 
 /// Whether a box holds the origin.
@@ -103,11 +97,6 @@ fn around_origin(corners: &[Vec3; 8]) -> bool {
 
 /// The faces of a box by the numbers of their corners, around each face.
 const FACES: [[usize; 4]; 6] = [[0, 2, 6, 4], [1, 3, 7, 5], [0, 1, 5, 4], [2, 3, 7, 6], [0, 1, 3, 2], [4, 5, 7, 6]];
-
-/// The part of a convex polygon with |x|, |y| <= `radius`.
-fn clip_to_column(polygon: Vec<Vec3>, radius: f32) -> Vec<Vec3> {
-    clip(polygon, &[Vec3::X, Vec3::NEG_X, Vec3::Y, Vec3::NEG_Y].map(|side| side.extend(radius)))
-}
 
 /// The part of a convex polygon where (x, y, z, 1) times each of `sides` is not negative (Sutherland and Hodgman 1974).
 fn clip(mut polygon: Vec<Vec3>, sides: &[Vec4]) -> Vec<Vec3> {

@@ -69,13 +69,10 @@ pub fn light_spaces(
         .ok_or_else(|| RenderError::Job(format!("light `{}` has maps but no projection", light.name)))?;
     let inputs = Inputs { paths: &space.inputs, module, value_of };
     let mut views = match space.projection.as_str() {
-        "perspective" => {
-            let radius = inputs.length(5)?;
-            vec![LightSpace { source: Vec4::new(radius, radius, 1.0, 1.0), ..perspective(&inputs)? }]
-        }
+        "perspective" => vec![perspective(&inputs, disc(inputs.length(5)?))?],
         "rectangle" => {
-            let (width, height) = (inputs.length(5)?, inputs.length(6)?);
-            vec![LightSpace { source: Vec4::new(width / 2.0, height / 2.0, 0.0, 1.0), ..perspective(&inputs)? }]
+            let half = (inputs.length(5)? / 2.0, inputs.length(6)? / 2.0);
+            vec![perspective(&inputs, Vec4::new(half.0, half.1, 0.0, 1.0))?]
         }
         "cube" => cube(&inputs)?,
         "orthographic" => match space.views {
@@ -160,7 +157,7 @@ fn narrow(x: f64) -> f32 {
 /// its distance.
 const OUTER_ANGLE: std::ops::RangeInclusive<f32> = 0.000_1..=1.553_343;
 
-fn perspective(inputs: &Inputs<'_>) -> Result<LightSpace, RenderError> {
+fn perspective(inputs: &Inputs<'_>, source: Vec4) -> Result<LightSpace, RenderError> {
     let position = inputs.vector(0)?;
     let axis = inputs.axis(1)?;
     let half_angle = inputs.number(2)?;
@@ -175,7 +172,7 @@ fn perspective(inputs: &Inputs<'_>) -> Result<LightSpace, RenderError> {
         world_to_light: look_along(position, axis),
         projection: Vec4::new(focal, focal, 1.0, 0.0),
         depth: depth_range(near, far),
-        source: POINT,
+        source,
         warp: Vec4::ZERO,
     })
 }
@@ -199,20 +196,22 @@ fn cube(inputs: &Inputs<'_>) -> Result<Vec<LightSpace>, RenderError> {
     let position = inputs.vector(0)?;
     let (near, far) = (inputs.number(1)?, inputs.number(2)?);
     check_range(inputs, (1, near), (2, far))?;
-    let radius = inputs.length(3)?;
+    let source = disc(inputs.length(3)?);
     let axes = [Vec3::X, Vec3::NEG_X, Vec3::Y, Vec3::NEG_Y, Vec3::Z, Vec3::NEG_Z];
     let face = |axis| LightSpace {
         world_to_light: look_along(position, axis),
         projection: Vec4::new(FACE.recip(), FACE.recip(), 1.0, 0.0),
         depth: depth_range(near, far),
-        source: Vec4::new(radius, radius, 1.0, 1.0),
+        source,
         warp: Vec4::ZERO,
     };
     Ok(axes.map(face).to_vec())
 }
 
-/// The source of a light that is a point, seen by its only view.
-const POINT: Vec4 = Vec4::new(0.0, 0.0, 1.0, 1.0);
+/// The source of a light that shines from a disc of this half size, in its only or coarsest view.
+fn disc(half: f32) -> Vec4 {
+    Vec4::new(half, half, 1.0, 1.0)
+}
 
 /// The source of parallel light from a disc, from the angle between its middle and its rim.
 fn distant_source(inputs: &Inputs<'_>, index: usize) -> Result<Vec4, RenderError> {
@@ -220,22 +219,19 @@ fn distant_source(inputs: &Inputs<'_>, index: usize) -> Result<Vec4, RenderError
     if angle >= 1.5 {
         return Err(inputs.refuse(index, "the light must come from less than half of the sky"));
     }
-    let half = angle.tan();
-    Ok(Vec4::new(half, half, 1.0, 1.0))
+    Ok(disc(angle.tan()))
 }
 
 fn orthographic(inputs: &Inputs<'_>, bounds: &Bounds) -> Result<LightSpace, RenderError> {
     let axis = inputs.axis(0)?;
     let (center, radius) = covered_ball(inputs, bounds)?;
-    let (low, high) = bounds.depth_in_column(look_along(center, axis), radius);
-    // A margin keeps surfaces at both ends inside, whatever rounding does to them.
-    let margin = (high - low).max(radius) * 1e-3;
-    let origin = center + axis * (low - margin);
+    let (begin, length) = fitted_depth(bounds, look_along(center, axis), radius);
+    let origin = center + axis * begin;
     let focal = radius.recip();
     Ok(LightSpace {
         world_to_light: look_along(origin, axis),
         projection: Vec4::new(focal, focal, 0.0, 0.0),
-        depth: depth_range(0.0, high - low + 2.0 * margin),
+        depth: depth_range(0.0, length),
         source: distant_source(inputs, 3)?,
         warp: Vec4::ZERO,
     })
@@ -247,6 +243,14 @@ fn covered_ball(inputs: &Inputs<'_>, bounds: &Bounds) -> Result<(Vec3, f32), Ren
     let (center, radius) = if given.1 == 0.0 { bounds.ball() } else { given };
     // A scene of one point still has an extent to divide by.
     Ok((center, radius.max(1e-6)))
+}
+
+/// Where the maps of parallel light begin along its axis, from the origin of a frame, and how far they reach: all that
+/// stands in its column, with a margin that keeps surfaces at both ends inside, whatever rounding does to them.
+fn fitted_depth(bounds: &Bounds, frame: Mat4, radius: f32) -> (f32, f32) {
+    let (low, high) = bounds.depth_in_column(frame, radius);
+    let margin = (high - low).max(radius) * 1e-3;
+    (low - margin, high - low + 2.0 * margin)
 }
 
 fn depth_range(near: f32, far: f32) -> Vec4 {

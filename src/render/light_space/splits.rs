@@ -3,7 +3,9 @@
 
 use glam::{Mat4, Vec2, Vec3, Vec4};
 
-use super::{Eye, Inputs, LightSpace, Surroundings, covered_ball, depth_range, distant_source, look_along};
+use super::{
+    Eye, Inputs, LightSpace, Surroundings, covered_ball, depth_range, distant_source, fitted_depth, look_along,
+};
 use crate::plan::Space;
 use crate::render::RenderError;
 
@@ -32,8 +34,7 @@ pub(super) fn views(
     let ends = practical_splits(near, far, balance, space.views);
     let frame = look_along(center, axis);
     // One range of depths for all, so that what is filtered in depth means the same in each.
-    let (low, high) = around.bounds.depth_in_column(frame, radius);
-    let margin = (high - low).max(radius) * 1e-3;
+    let (nearest, length) = fitted_depth(around.bounds, frame, radius);
     let blend = space.settings.get("blend").is_some_and(|blend| blend == "on");
     let mut views = Vec::new();
     let mut begin = near;
@@ -43,8 +44,8 @@ pub(super) fn views(
         } else {
             bounding_rectangle(around.eye, (begin, end), frame, radius)
         };
-        let shift = Mat4::from_translation(Vec3::new(-middle.x, -middle.y, -(low - margin)));
-        let mut depth = depth_range(0.0, high - low + 2.0 * margin);
+        let shift = Mat4::from_translation(Vec3::new(-middle.x, -middle.y, -nearest));
+        let mut depth = depth_range(0.0, length);
         depth.w = end;
         views.push(LightSpace {
             world_to_light: shift * frame,

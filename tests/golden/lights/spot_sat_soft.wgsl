@@ -169,6 +169,15 @@ fn geometric_normal(point: vec3f) -> vec3f {
     return cross(dpdx(point), dpdy(point));
 }
 
+fn chebyshev_bound(variance: f32, behind: f32) -> f32 {
+    return variance / (variance + behind * behind);
+}
+
+fn reduce_bleeding(visibility: f32, amount: f32) -> f32 {
+    let least = clamp(amount, 0.0, 0.99);
+    return saturate((visibility - least) / (1.0 - least));
+}
+
 fn summed_box(uv: vec2f, width: vec2f, size: vec2f) -> SummedBox {
     let half_width = 0.5 * max(width, vec2f(1.0));
     let low = clamp(uv * size - half_width, vec2f(0.0), size - 1.0);
@@ -215,9 +224,7 @@ fn summed_mean(map: texture_2d_array<u32>, layer: i32, region: SummedBox) -> vec
 fn summed_bound(depth: f32, mean: f32, variance: f32, least_variance: f32, reduction: f32) -> f32 {
     let behind = max(depth - mean, 0.0);
     // 1e-12 keeps 0 / 0 out where both the variance and the difference vanish.
-    let spread = max(variance, max(least_variance, 1e-12));
-    let least = clamp(reduction, 0.0, 0.99);
-    return saturate((spread / (spread + behind * behind) - least) / (1.0 - least));
+    return reduce_bleeding(chebyshev_bound(max(variance, max(least_variance, 1e-12)), behind), reduction);
 }
 
 fn spot_light(
