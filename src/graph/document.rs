@@ -1,6 +1,6 @@
 //! The graph as data.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::fmt;
 use std::sync::Arc;
 
@@ -27,10 +27,31 @@ pub struct Graph {
     pub expose: Expose,
     /// Canvas positions of nodes, in points, y down.
     pub layout: BTreeMap<String, [f64; 2]>,
+    /// Frames and remarks on the canvas, by title.
+    pub frames: BTreeMap<String, Frame>,
+    /// Nodes that are drawn small.
+    pub collapsed: BTreeSet<String>,
+    /// Where links bend on the canvas, by their ends, in order from their start.
+    pub waypoints: BTreeMap<(End, End), Vec<[f64; 2]>>,
     /// Fields of the file that this version does not know, in file order.
     pub unknown: Vec<(String, ron::Node)>,
     /// The text it was read from.
     pub source: Option<Arc<SourceText>>,
+}
+
+/// A rectangle with a title on the canvas, which may stand around nodes or be a remark of its own.
+#[derive(Clone, Debug, Default)]
+pub struct Frame {
+    /// Top left corner, in points, y down.
+    pub at: [f64; 2],
+    /// Width and height, in points, above zero.
+    pub size: [f64; 2],
+    /// Red, green and blue from 0 to 1, as displays take them (sRGB). Unset: gray.
+    pub color: Option<[f64; 3]>,
+    /// A remark.
+    pub text: String,
+    /// Fields that this version does not know, in file order.
+    pub unknown: Vec<(String, ron::Node)>,
 }
 
 /// One node of a graph.

@@ -1,7 +1,8 @@
 //! Changes to a graph, each of which returns the change that takes it back.
 
 use super::check::{find_cycles, spell};
-use super::{End, Expose, Graph, Link, MAX_LINKS, MAX_NODES, Node, check_name};
+use super::edit_canvas;
+use super::{End, Expose, Frame, Graph, Link, MAX_LINKS, MAX_NODES, Node, check_name};
 use crate::semantic::Value;
 
 /// A change to a graph.
@@ -9,7 +10,7 @@ use crate::semantic::Value;
 pub enum Edit {
     /// Adds a node under a name that is free.
     AddNode(String, Box<Node>),
-    /// Removes a node, its links, its position, and its part in `output` and `expose`.
+    /// Removes a node, its links, all that the canvas says of them, and its part in `output` and `expose`.
     RemoveNode(String),
     /// Gives a node another name, everywhere.
     RenameNode(String, String),
@@ -54,15 +55,23 @@ pub enum Edit {
     SetName(String),
     /// Adds a link.
     Link(Box<Link>),
-    /// Removes the link between two ends.
+    /// Removes the link between two ends, with its bends.
     Unlink(End, End),
     /// Puts a node somewhere on the canvas, or nowhere.
     Move(String, Option<[f64; 2]>),
+    /// Sets or removes the frame of a title.
+    SetFrame(String, Option<Box<Frame>>),
+    /// Gives a frame another title, which is free.
+    RenameFrame(String, String),
+    /// Draws a node small, or not.
+    SetCollapsed(String, bool),
+    /// Sets where the link between two ends bends; nowhere, if there are no points.
+    SetWaypoints(End, End, Vec<[f64; 2]>),
     /// Sets or unsets what the graph exports.
     SetOutput(Option<End>),
     /// Sets what the graph exposes.
     SetExpose(Box<Expose>),
-    /// Several changes, one after the other, all or none.
+    /// Several changes, one after the other, all or none. Links may form a cycle on the way, if none is left at the end.
     Batch(Vec<Edit>),
 }
 
@@ -90,6 +99,15 @@ pub enum EditError {
     /// The link would close a cycle.
     #[error("the link would close a cycle: {0}")]
     Cycle(String),
+    /// The frame does not exist.
+    #[error("there is no frame `{0}`")]
+    NoFrame(String),
+    /// The title is another frame's.
+    #[error("there is already a frame `{0}`")]
+    FrameTaken(String),
+    /// The frame cannot be drawn.
+    #[error("{0}")]
+    BadFrame(String),
     /// A number is NaN or infinite.
     #[error("`{0}` must be a finite number")]
     NotFinite(String),
@@ -101,6 +119,20 @@ pub enum EditError {
 /// Makes a change and returns the one that takes it back. The graph is one that was read without errors or made by edits:
 /// taking back needs what edits demand, and a link to a node that is not there could not be put back.
 pub fn apply(graph: &mut Graph, edit: Edit) -> Result<Edit, EditError> {
+    let mut linked = false;
+    let inverse = change(graph, edit, &mut linked)?;
+    // Looked for once, as putting a thousand links back would otherwise look at the whole graph a thousand times.
+    if linked && let Some(cycle) = find_cycles(graph, 1).first() {
+        let error = EditError::Cycle(spell(&cycle.nodes));
+        // An inverse was made from the very state that it meets, so it cannot fail.
+        let _ = change(graph, inverse, &mut linked);
+        return Err(error);
+    }
+    Ok(inverse)
+}
+
+/// Makes a change without looking for cycles, and says whether it added a link.
+fn change(graph: &mut Graph, edit: Edit, linked: &mut bool) -> Result<Edit, EditError> {
     use std::mem::replace;
     Ok(match edit {
         Edit::AddNode(name, node) => add_node(graph, name, *node)?,
@@ -156,10 +188,17 @@ pub fn apply(graph: &mut Graph, edit: Edit) -> Result<Edit, EditError> {
         }
         Edit::SetNote(note) => Edit::SetNote(replace(&mut graph.note, note)),
         Edit::SetName(name) => Edit::SetName(replace(&mut graph.name, name)),
-        Edit::Link(link) => add_link(graph, *link)?,
+        Edit::Link(link) => {
+            *linked = true;
+            add_link(graph, *link)?
+        }
         Edit::Unlink(from, to) => {
             let index = find_link(graph, &from, &to)?;
-            Edit::Link(Box::new(graph.links.remove(index)))
+            let link = Edit::Link(Box::new(graph.links.remove(index)));
+            match graph.waypoints.remove(&(from.clone(), to.clone())) {
+                Some(points) => Edit::Batch(vec![link, Edit::SetWaypoints(from, to, points)]),
+                None => link,
+            }
         }
         Edit::Move(node, position) => {
             has_node(graph, &node)?;
@@ -172,6 +211,16 @@ pub fn apply(graph: &mut Graph, edit: Edit) -> Result<Edit, EditError> {
             };
             Edit::Move(node, before)
         }
+        Edit::SetFrame(name, frame) => edit_canvas::set_frame(graph, name, frame)?,
+        Edit::RenameFrame(from, to) => edit_canvas::rename_frame(graph, from, to)?,
+        Edit::SetCollapsed(node, collapsed) => {
+            has_node(graph, &node)?;
+            edit_canvas::set_collapsed(graph, node, collapsed)
+        }
+        Edit::SetWaypoints(from, to, points) => {
+            find_link(graph, &from, &to)?;
+            edit_canvas::set_waypoints(graph, from, to, points)?
+        }
         Edit::SetOutput(output) => {
             output.iter().try_for_each(|end| has_node(graph, &end.node))?;
             Edit::SetOutput(replace(&mut graph.output, output))
@@ -180,7 +229,7 @@ pub fn apply(graph: &mut Graph, edit: Edit) -> Result<Edit, EditError> {
             expose.ends().try_for_each(|end| has_node(graph, &end.node))?;
             Edit::SetExpose(Box::new(replace(&mut graph.expose, *expose)))
         }
-        Edit::Batch(edits) => batch(graph, edits)?,
+        Edit::Batch(edits) => batch(graph, edits, linked)?,
     })
 }
 
@@ -193,8 +242,8 @@ fn node_mut<'a>(graph: &'a mut Graph, name: &str) -> Result<&'a mut Node, EditEr
 }
 
 fn find_link(graph: &Graph, from: &End, to: &End) -> Result<usize, EditError> {
-    let found = graph.links.iter().position(|link| link.ends() == (from, to));
-    found.ok_or_else(|| EditError::NoLink(format!("{from} -> {to}")))
+    let found = graph.links.binary_search_by(|link| link.ends().cmp(&(from, to)));
+    found.map_err(|_| EditError::NoLink(format!("{from} -> {to}")))
 }
 
 fn free_name(graph: &Graph, name: &str) -> Result<(), EditError> {
@@ -236,8 +285,13 @@ fn remove_node(graph: &mut Graph, name: String) -> Result<Edit, EditError> {
         graph.expose.outputs.retain(|_, end| end.node != name);
     }
     if let Some(position) = graph.layout.remove(&name) {
-        undo.push(Edit::Move(name, Some(position)));
+        undo.push(Edit::Move(name.clone(), Some(position)));
     }
+    if graph.collapsed.remove(&name) {
+        undo.push(Edit::SetCollapsed(name.clone(), true));
+    }
+    let bends = graph.waypoints.extract_if(.., |(from, to), _| from.node == name || to.node == name);
+    undo.extend(bends.map(|((from, to), points)| Edit::SetWaypoints(from, to, points)));
     Ok(Edit::Batch(undo))
 }
 
@@ -250,9 +304,7 @@ fn rename_node(graph: &mut Graph, from: String, to: String) -> Result<Edit, Edit
     if let Some(node) = graph.nodes.remove(&from) {
         graph.nodes.insert(to.clone(), node);
     }
-    if let Some(position) = graph.layout.remove(&from) {
-        graph.layout.insert(to.clone(), position);
-    }
+    edit_canvas::rename_node(graph, &from, &to);
     let links = graph.links.iter_mut().flat_map(|link| [&mut link.from, &mut link.to]);
     for end in links.chain(&mut graph.output).chain(graph.expose.ends_mut()) {
         if end.node == from {
@@ -277,22 +329,18 @@ fn add_link(graph: &mut Graph, link: Link) -> Result<Edit, EditError> {
         return Err(EditError::LinkTaken(link.to_string()));
     };
     graph.links.insert(index, link);
-    if let Some(cycle) = find_cycles(graph, 1).first() {
-        graph.links.remove(index);
-        return Err(EditError::Cycle(spell(&cycle.nodes)));
-    }
     Ok(Edit::Unlink(from, to))
 }
 
-fn batch(graph: &mut Graph, edits: Vec<Edit>) -> Result<Edit, EditError> {
+fn batch(graph: &mut Graph, edits: Vec<Edit>, linked: &mut bool) -> Result<Edit, EditError> {
     let mut undo = Vec::new();
     for edit in edits {
-        match apply(graph, edit) {
+        match change(graph, edit, linked) {
             Ok(inverse) => undo.push(inverse),
             Err(error) => {
                 for inverse in undo.into_iter().rev() {
                     // An inverse was made from the very state that it meets, so it cannot fail.
-                    let _ = apply(graph, inverse);
+                    let _ = change(graph, inverse, linked);
                 }
                 return Err(error);
             }

@@ -215,6 +215,7 @@ impl Expander {
         flat.note.clone_from(&root.note);
         flat.unknown.clone_from(&root.unknown);
         flat.source.clone_from(&root.source);
+        // Frames and bends belong to the canvas of one file.
         flat.layout = root.layout.clone();
         flat.layout.retain(|name, _| flat.nodes.contains_key(name));
         for cycle in check::cycles(flat) {

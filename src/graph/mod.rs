@@ -7,24 +7,31 @@
 //! the node or link whose line it ends, that begins right below it or that it stands inside; the graph otherwise. The
 //! writer writes notes, so rewriting a file moves comments but loses none.
 //!
-//! **Unknown fields** of the graph, a node, a link or `expose` are kept and written back after the known ones, with a
+//! **The canvas** is data, too: `layout`, `frames`, `collapsed` and `waypoints` say where things lie and how they are
+//! drawn. They come last in the file, and no shader depends on them. What they say of a node or link that is not there is
+//! passed over, with a warning.
+//!
+//! **Unknown fields** of the graph, a node, a link, a frame or `expose` are kept and written back after the known ones, with a
 //! warning.
 
 mod check;
 mod comments;
 mod document;
 mod edit;
+mod edit_canvas;
 mod expand;
 mod migrate;
 mod read;
+mod read_canvas;
 mod read_node;
 mod reroute;
 mod write;
+mod write_canvas;
 
 #[cfg(test)]
 mod tests;
 
-pub use document::{End, Expose, Graph, Link, Node, Setting, Spans, check_name};
+pub use document::{End, Expose, Frame, Graph, Link, Node, Setting, Spans, check_name};
 pub use edit::{Edit, EditError, apply};
 pub use expand::{Loader, expand};
 pub use read::read;
@@ -36,6 +43,8 @@ pub const VERSION: u32 = 1;
 pub const MAX_NODES: usize = 20_000;
 /// Most links of a graph, also after its subgraphs are expanded.
 pub const MAX_LINKS: usize = 100_000;
+/// Most bends of a link on the canvas.
+pub const MAX_WAYPOINTS: usize = 64;
 /// Deepest nesting of subgraphs.
 pub const MAX_NESTING: usize = 32;
 
@@ -47,7 +56,7 @@ pub const CODES: &[(&str, &str)] = &[
     ("ST0053", "A node has a name that links cannot spell. Names consist of letters, digits, `_`, `-` and spaces."),
     ("ST0054", "A node must say either which `kind` it is or which `graph` file stands in its place."),
     ("ST0055", "A link, output or exposed end is not written as `node`, `node.port` or `from -> to`."),
-    ("ST0056", "A link, output, exposed end or position names a node that is not in the graph."),
+    ("ST0056", "A link, output, exposed end or something on the canvas names a node or link that is not in the graph."),
     ("ST0057", "A link leads from a node to itself."),
     ("ST0058", "The same link is given twice."),
     ("ST0059", "The links form a cycle, so no node of it can be computed first."),
@@ -60,4 +69,8 @@ pub const CODES: &[(&str, &str)] = &[
     ("ST0066", "The graph has too many mistakes to list them all."),
     ("ST0067", "A parameter or option inside a subgraph is set twice, through two names."),
     ("ST0068", "A subgraph could not be loaded."),
+    (
+        "ST0069",
+        "Something on the canvas cannot be drawn: a frame without a title or a size, or a link of too many bends.",
+    ),
 ];

@@ -1,6 +1,5 @@
 //! From text to graph, with everything that is wrong on the way.
 
-use std::collections::{BTreeMap, BTreeSet};
 use std::hash::BuildHasher;
 use std::ops::Range;
 use std::sync::Arc;
@@ -8,8 +7,8 @@ use std::sync::Arc;
 use foldhash::fast::RandomState;
 
 use super::comments::{Item, Target};
-use super::{End, Expose, Graph, Link, MAX_LINKS, check, comments, migrate, read_node};
-use crate::diagnostic::{Diagnostic, Place, SourceText, Span, did_you_mean};
+use super::{End, Expose, Graph, Link, MAX_LINKS, check, comments, migrate, read_canvas, read_node};
+use crate::diagnostic::{Diagnostic, Place, SourceText, Span};
 use crate::hash::HashMap;
 use crate::ron::{self, Field, Node, Tree, expect_fields, field, unknown_fields};
 
@@ -101,10 +100,9 @@ fn graph(mut document: ron::Document, report: &mut Report) -> Option<Graph> {
     if let Some(node) = field(&fields, "expose") {
         graph.expose = expose(node, &graph, report);
     }
-    if let Some(map) = field(&fields, "layout").and_then(|n| report.take(n.as_map(&source))) {
-        graph.layout = layout(map, &graph, report);
-    }
-    let known = ["version", "name", "note", "nodes", "links", "output", "expose", "layout"];
+    read_canvas::canvas(&fields, &mut graph, report);
+    let known = ["version", "name", "note", "nodes", "links", "output", "expose"];
+    let known: Vec<&str> = known.into_iter().chain(read_canvas::FIELDS).collect();
     graph.unknown = report.unknown(&fields, &known);
     comments::keep(&document, &source.text, items, &mut graph);
     graph.sort_links();
@@ -231,28 +229,4 @@ fn entries<'a>(fields: &'a [Field], name: &str, report: &mut Report) -> Vec<(Str
     let source = report.source.clone();
     let map = field(fields, name).and_then(|n| report.take(n.as_map(&source))).unwrap_or_default();
     map.iter().filter_map(|(key, value)| Some((report.take(key.as_str(&source))?.to_string(), value))).collect()
-}
-
-fn layout(map: &[(Node, Node)], graph: &Graph, report: &mut Report) -> BTreeMap<String, [f64; 2]> {
-    let source = report.source.clone();
-    let mut layout = BTreeMap::new();
-    let mut strangers = BTreeSet::new();
-    for (key, value) in map {
-        let Some(name) = report.take(key.as_str(&source)) else {
-            continue;
-        };
-        let Some(position) = report.take(value.as_array::<2>(&source)) else {
-            continue;
-        };
-        if !graph.nodes.contains_key(name) && strangers.insert(name) {
-            let message = format!("there is a position for `{name}`, and no such node");
-            let help = match did_you_mean(name, graph.nodes.keys().map(String::as_str)) {
-                Some(near) => format!("did you mean `{near}`?"),
-                None => "remove it".to_owned(),
-            };
-            report.push(Diagnostic::warning("ST0056", message, key.place(&source)).help(help));
-        }
-        layout.insert(name.to_string(), position);
-    }
-    layout
 }

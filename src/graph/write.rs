@@ -3,6 +3,7 @@
 
 use std::collections::BTreeMap;
 
+use super::write_canvas::canvas;
 use super::{End, Expose, Graph, Link, Node, VERSION};
 use crate::ron;
 use crate::semantic::Value;
@@ -27,17 +28,19 @@ pub fn write(graph: &Graph) -> String {
     for (name, value) in &graph.unknown {
         out += &format!("    {}: {},\n", ron::identifier(name), ron::inline(value));
     }
-    let layout = graph
-        .layout
-        .iter()
-        .map(|(name, [x, y])| format!("{}: ({}, {})", ron::text(name), ron::number(*x), ron::number(*y)));
-    block(&mut out, 1, "layout", ['{', '}'], layout);
+    canvas(&mut out, graph);
     out.push_str(")\n");
     out
 }
 
 /// `field: {` one item a line `},`; nothing where there are no items.
-fn block(out: &mut String, level: usize, field: &str, [open, close]: [char; 2], items: impl Iterator<Item = String>) {
+pub(super) fn block(
+    out: &mut String,
+    level: usize,
+    field: &str,
+    [open, close]: [char; 2],
+    items: impl Iterator<Item = String>,
+) {
     let indent = "    ".repeat(level);
     let mut items = items.peekable();
     if items.peek().is_none() {
@@ -78,7 +81,7 @@ fn inline_map(fields: &mut Vec<String>, field: &str, items: impl Iterator<Item =
     }
 }
 
-fn remark(fields: &mut Vec<String>, note: &str, unknown: &[(String, ron::Node)]) {
+pub(super) fn remark(fields: &mut Vec<String>, note: &str, unknown: &[(String, ron::Node)]) {
     if !note.is_empty() {
         fields.push(format!("note: {}", ron::text(note)));
     }

@@ -13,6 +13,9 @@ const START: &str = r#"Graph(
     output: "c",
     expose: (inputs: {"i": ["a.x", "b.x"]}, outputs: {"o": "c.o"}, options: {"p": "a.p"}),
     layout: {"a": (1, 2), "c": (3, 4)},
+    frames: {"Basics": (at: (0, 0), size: (9, 9), color: (0, 0.5, 1), text: "why", later: 1)},
+    collapsed: ["b"],
+    waypoints: {"a -> b": [(1, 1), (2, 1)], "b.o -> c.i": [(5, 5)]},
 )"#;
 
 fn start() -> Graph {
@@ -35,6 +38,37 @@ fn a_removed_node_comes_back_with_all_that_hung_on_it() {
     }
 }
 
+#[test]
+fn the_canvas_goes_along_with_nodes_and_links() {
+    let mut graph = start();
+    let before = write(&graph);
+    let back = apply(&mut graph, Edit::RenameNode("b".into(), "z".into())).unwrap();
+    let renamed = write(&graph);
+    for part in ["collapsed: [\n        \"z\"", "\"a -> z\": [(1, 1), (2, 1)]", "\"z.o -> c.i\": [(5, 5)]"] {
+        assert!(renamed.contains(part), "{renamed}");
+    }
+    apply(&mut graph, back).unwrap();
+    assert_eq!(write(&graph), before);
+    let back = apply(&mut graph, Edit::Unlink(End::node("a"), End::node("b"))).unwrap();
+    assert_eq!(graph.waypoints.len(), 1);
+    apply(&mut graph, back).unwrap();
+    assert_eq!(write(&graph), before);
+}
+
+#[test]
+fn links_may_cross_in_a_batch_that_ends_without_a_cycle() {
+    let mut graph = start();
+    let before = write(&graph);
+    let link = |text: &str| Edit::Link(Box::new(Link::parse(text).unwrap()));
+    let turn = vec![link("b -> a"), Edit::Unlink(End::node("a"), End::node("b"))];
+    let back = apply(&mut graph, Edit::Batch(turn)).unwrap();
+    apply(&mut graph, back).unwrap();
+    assert_eq!(write(&graph), before);
+    let cycle = Edit::Batch(vec![Edit::SetName("n".into()), link("b -> a")]);
+    assert!(matches!(apply(&mut graph, cycle), Err(EditError::Cycle(_))));
+    assert_eq!(write(&graph), before);
+}
+
 fn clean_but_for_unknown(text: &str) {
     let (_, found) = read(&SourceText::new("t.ron", text));
     assert!(found.iter().all(|d| d.code == "ST0010"), "{text}\n{found:?}");
@@ -55,6 +89,14 @@ fn impossible_edits_say_why_and_change_nothing() {
         (Edit::Move(a(), Some([f64::NAN, 0.0])), "`a` must be a finite number"),
         (Edit::Unlink(End::node("a"), End::node("c")), "there is no link `a -> c`"),
         (Edit::SetOutput(Some(End::node("z"))), "there is no node `z`"),
+        (Edit::SetCollapsed("z".into(), true), "there is no node `z`"),
+        (Edit::SetFrame("f".into(), Some(Box::default())), "the frame `f` has no size"),
+        (Edit::RenameFrame("f".into(), "g".into()), "there is no frame `f`"),
+        (Edit::SetWaypoints(End::node("a"), End::node("c"), vec![]), "there is no link `a -> c`"),
+        (
+            Edit::SetWaypoints(End::node("a"), End::node("b"), vec![[0.0; 2]; 65]),
+            "the graph cannot have more bends in one link",
+        ),
         (Edit::Batch(vec![Edit::RemoveNode(a()), link("b -> c"), link("b -> a")]), "there is no node `a`"),
     ] {
         let mut graph = start();
@@ -94,6 +136,14 @@ fn any_edit() -> impl Strategy<Value = Edit> {
         (end(), end()).prop_map(|(from, to)| Edit::Link(Box::new(Link::new(from, to)))),
         (end(), end()).prop_map(|(from, to)| Edit::Unlink(from, to)),
         (name(), position).prop_map(|(node, position)| Edit::Move(node, position)),
+        (name(), prop::option::of(1.0..1e4_f64)).prop_map(|(name, size)| {
+            let frame = |size| Box::new(Frame { size: [size, 2.0], text: name.clone(), ..Frame::default() });
+            Edit::SetFrame(name.clone(), size.map(frame))
+        }),
+        (name(), name()).prop_map(|(from, to)| Edit::RenameFrame(from, to)),
+        (name(), any::<bool>()).prop_map(|(node, collapsed)| Edit::SetCollapsed(node, collapsed)),
+        (end(), end(), prop::collection::vec([-1e4..1e4, -1e4..1e4], 0..4))
+            .prop_map(|(from, to, points)| Edit::SetWaypoints(from, to, points)),
         prop::option::of(end()).prop_map(Edit::SetOutput),
         end().prop_map(|end| {
             let expose = Expose { inputs: [("i".to_string(), vec![end])].into(), ..Expose::default() };

@@ -37,6 +37,17 @@ const FULL: &str = r##"Graph(
         "bump": (0, 120),
         "glass": (-12.5, 3e21),
     },
+    frames: {
+        "Normals, bent": (at: (-20, 100), size: (300, 200.5), color: (0.2, 0.4, 1), text: "why", later: 1),
+        "plain": (at: (0, 0), size: (1, 1)),
+    },
+    collapsed: [
+        "glass",
+        "stone",
+    ],
+    waypoints: {
+        "bump -> glass": [(10, 20), (30, -40.5)],
+    },
 )
 "##;
 
@@ -49,6 +60,7 @@ fn a_canonical_file_comes_back_byte_for_byte() {
             "ST0010 8:71 the field `later` is not known here",
             "ST0010 14:51 the field `weight` is not known here",
             "ST0010 29:9 the field `later` is not known here",
+            "ST0010 37:98 the field `later` is not known here",
             "ST0010 31:5 the field `future` is not known here",
         ]
     );
@@ -93,6 +105,9 @@ fn every_mistake_is_told_in_one_reading() {
     links: ["niose -> glass", "noise -> noise", "noise glass", 7, "noise -> both", "noise -> both"],
     output: "glas.color",
     layout: {"gone": (0, 0), "noise": (1, NaN)},
+    frames: {"": (at: (0, 0), size: (1, 1)), "f": (at: (0, 0)), "g": (at: (0, 0), size: (1, 0)), "h": (at: 1, size: (1, 1))},
+    collapsed: ["nosie", 3],
+    waypoints: {"noise": [], "noise -> gone": [(0, 0)], "noise -> both": [(0, inf)], "noise->both": 7},
 )"#;
     let (_, found) = read(&SourceText::new("t.ron", text));
     assert_eq!(
@@ -116,6 +131,16 @@ fn every_mistake_is_told_in_one_reading() {
             "ST0056 12:13 the output names the node `glas`, which is not in the graph",
             "ST0056 13:14 there is a position for `gone`, and no such node",
             "ST0009 13:43 `NaN` is not a finite number",
+            "ST0069 14:14 the title of a frame has 1 to 200 bytes that are not only spaces",
+            "ST0011 14:51 the frame has no field `size`",
+            "ST0069 14:65 the frame `g` has no size",
+            "ST0008 14:108 expected 2 numbers `(...)`, found the number `1`",
+            "ST0056 15:17 there is an entry in `collapsed` for `nosie`, and no such node",
+            "ST0008 15:26 expected a text in quotes, found the number `3`",
+            "ST0055 16:17 `noise` has no `->`",
+            "ST0056 16:30 there are bends for `noise -> gone`, and no such link",
+            "ST0009 16:79 `inf` is not a finite number",
+            "ST0008 16:101 expected a list `[...]`, found the number `7`",
         ]
     );
     let help = |code: &str| found.iter().find(|d| d.code == code && d.help.is_some()).and_then(|d| d.help.clone());
