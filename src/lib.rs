@@ -17,6 +17,7 @@ pub mod export;
 pub mod reflect;
 pub mod scene;
 pub mod reference;
+pub mod view;
 #[cfg(feature = "render")]
 pub mod render;
 pub mod explain;

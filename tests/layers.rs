@@ -24,6 +24,7 @@ const ALLOWED: &[(&str, &[&str])] = &[
     ("explain", &["ron", "graph", "node", "scene"]),
     ("scene", &["diagnostic", "semantic", "ron"]),
     ("reference", &["scene"]),
+    ("view", &["diagnostic", "semantic", "graph", "node"]),
     ("render", &["semantic", "module", "plan", "scene", "compile"]),
 ];
 
