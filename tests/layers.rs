@@ -24,7 +24,7 @@ const ALLOWED: &[(&str, &[&str])] = &[
     ("explain", &["ron", "graph", "node", "scene"]),
     ("scene", &["diagnostic", "semantic", "ron"]),
     ("reference", &["scene"]),
-    ("view", &["diagnostic", "semantic", "graph", "node"]),
+    ("view", &["hash", "diagnostic", "semantic", "graph", "node", "weave"]),
     ("render", &["semantic", "module", "plan", "scene", "compile"]),
 ];
 

@@ -3,9 +3,9 @@
 use super::exit::Failure;
 use crate::compile::NamedGraph;
 use crate::diagnostic::{Diagnostic, Place, did_you_mean};
-use crate::graph::Node;
 use crate::node::Catalog;
 use crate::semantic::Value;
+use crate::view::commands::change_kind;
 
 /// `NODE.PORT=VALUE`, read by clap.
 #[derive(Clone, Debug, PartialEq)]
@@ -84,22 +84,6 @@ impl Assignment {
 pub(super) fn overrides(kinds: &[Assignment], set: &[Assignment], option: &[Assignment]) -> Vec<Assignment> {
     let options = option.iter().map(|a| Assignment { target: Target::Option, ..a.clone() });
     kinds.iter().chain(set).cloned().chain(options).collect()
-}
-
-/// Makes a node one of another kind. Its links stay; of its values and choices those stay that the other kind has, too.
-pub(super) fn change_kind(node: &mut Node, kind: &str, catalog: &Catalog) {
-    node.kind = kind.to_owned();
-    // What is wrong with the kind is told when it is woven.
-    let Some(file) = catalog.get(kind) else { return };
-    if let Ok(header) = file.header() {
-        let offers = |name: &str, choice: &str| {
-            header.options.iter().any(|o| o.name == name && o.choices.iter().any(|c| c == choice))
-        };
-        node.options.retain(|name, choice| offers(name, choice));
-    }
-    if let Ok(definition) = file.definition(&node.options) {
-        node.params.retain(|name, _| definition.input(name).is_some_and(|p| !p.hidden));
-    }
 }
 
 /// Puts overrides into the graphs that have such a node. Ports, options and types are checked when compiling.
