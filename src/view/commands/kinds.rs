@@ -9,6 +9,10 @@ use crate::semantic::Conversions;
 use crate::view::fit::{Side, best, cost, definition, definition_of, is_open, lights, takes_light};
 use crate::weave::{is_light, is_shadow};
 
+fn is_lamp(definition: &Definition) -> bool {
+    is_light(definition) || is_shadow(definition)
+}
+
 /// Makes a node one of another kind. Of its values and choices those stay that the other kind has, too.
 pub fn change_kind(node: &mut Node, kind: &str, catalog: &Catalog) {
     node.kind = kind.to_owned();
@@ -163,8 +167,9 @@ pub fn compatible_kinds(graph: &Graph, catalog: &Catalog, node: &str) -> Vec<Str
         let mut used: BTreeSet<String> = BTreeSet::new();
         let fed = incoming.iter().all(|((from, source), to)| {
             let Some(source) = source else { return true };
-            if lights(source, &new) && to.port.is_none() {
-                return true;
+            // What is lit stays lit: its light is no number for something else.
+            if to.port.is_none() && (lights(source, &new) || is_lamp(source)) {
+                return lights(source, &new);
             }
             let from = Side { name: &from.node, definition: source, port: from.port.as_deref() };
             let same = to.port.as_deref().filter(|port| new.input(port).is_some_and(is_open));
@@ -175,16 +180,17 @@ pub fn compatible_kinds(graph: &Graph, catalog: &Catalog, node: &str) -> Vec<Str
         let feeds = outgoing.iter().all(|(from, (to, target))| {
             let Some(target) = target else { return true };
             let lit = current.as_ref().is_some_and(|current| lights(current, target)) && to.port.is_none();
-            if lit || is_light(&new) || is_shadow(&new) {
+            if lit || is_lamp(&new) {
                 return lit && lights(&new, target);
             }
             let same = from.port.as_deref().filter(|port| new.output(port).is_some());
             let to = Side { name: &to.node, definition: target, port: to.port.as_deref() };
             best(&conversions, Side { port: same, ..own }, to, &|_| true).is_some()
         });
-        // A shadow that nothing lights is no light.
+        // A shadow needs light that a light does not, so neither stands for the other.
         let shadow = current.as_deref().is_some_and(is_shadow);
-        if fed && feeds && (!shadow || is_shadow(&new) || incoming.is_empty()) {
+        let alone = incoming.is_empty() && outgoing.is_empty();
+        if fed && feeds && (alone || shadow == is_shadow(&new)) {
             found.push((category.as_ref() != Some(&new.header.category), file.kind().to_owned()));
         }
     }
