@@ -19,6 +19,7 @@ pub mod scene;
 pub mod reference;
 #[cfg(feature = "render")]
 pub mod render;
+pub mod studio;
 pub mod explain;
 pub mod report;
 pub mod cli;

@@ -25,6 +25,23 @@ const ALLOWED: &[(&str, &[&str])] = &[
     ("scene", &["diagnostic", "semantic", "ron"]),
     ("reference", &["scene"]),
     ("render", &["semantic", "module", "plan", "scene", "compile"]),
+    (
+        "studio",
+        &[
+            "diagnostic",
+            "semantic",
+            "ron",
+            "graph",
+            "node",
+            "weave",
+            "module",
+            "compile",
+            "verify",
+            "scene",
+            "reference",
+            "render",
+        ],
+    ),
 ];
 
 fn sources(folder: &Path, files: &mut Vec<PathBuf>) {
