@@ -20,6 +20,8 @@ pub mod reference;
 #[cfg(feature = "render")]
 pub mod render;
 pub mod studio;
+#[cfg(feature = "render")]
+pub mod preview;
 pub mod explain;
 pub mod report;
 pub mod cli;

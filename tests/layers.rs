@@ -42,6 +42,7 @@ const ALLOWED: &[(&str, &[&str])] = &[
             "render",
         ],
     ),
+    ("preview", &["diagnostic", "node", "compile", "scene", "reference", "render", "studio"]),
 ];
 
 fn sources(folder: &Path, files: &mut Vec<PathBuf>) {
