@@ -10,7 +10,7 @@ use crate::node::Catalog;
 use crate::plan::Plan;
 use crate::program::{Bake, build};
 use crate::semantic::Value;
-use crate::weave::weave;
+use crate::weave::{Woven, weave};
 
 /// What the fragment shader writes.
 #[derive(Clone, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -65,7 +65,17 @@ pub(crate) const MAX_REPORTED: usize = 100;
 
 /// Weaves graphs into one module. The module is there exactly if no diagnostic is an error.
 pub fn compile(graphs: &[NamedGraph], catalog: &Catalog, options: &Options) -> (Option<Compiled>, Vec<Diagnostic>) {
-    let (compiled, found) = compile_unlimited(graphs, catalog, options);
+    compile_watched(graphs, catalog, options, |_| {})
+}
+
+/// As [`compile`]; `watch` sees the resolved wiring, if there is one.
+pub fn compile_watched(
+    graphs: &[NamedGraph],
+    catalog: &Catalog,
+    options: &Options,
+    watch: impl FnOnce(&Woven),
+) -> (Option<Compiled>, Vec<Diagnostic>) {
+    let (compiled, found) = compile_unlimited(graphs, catalog, options, watch);
     let message = format!("more than {MAX_REPORTED} mistakes; the rest are not listed");
     (compiled, limited(found, MAX_REPORTED, &Diagnostic::error("ST0066", message, Place::default())))
 }
@@ -74,9 +84,11 @@ fn compile_unlimited(
     graphs: &[NamedGraph],
     catalog: &Catalog,
     options: &Options,
+    watch: impl FnOnce(&Woven),
 ) -> (Option<Compiled>, Vec<Diagnostic>) {
     let (woven, mut diagnostics) = weave(graphs, catalog, &options.output);
     let Some(woven) = woven else { return (None, diagnostics) };
+    watch(&woven);
     let mut program = build(&woven, if options.bake { Bake::All } else { Bake::Nothing }, options.unshadowed);
     // What no device need take as uniforms becomes constants, the nodes' own defaults first.
     for (bake, which) in [(Bake::Defaults, "values that no one changed"), (Bake::All, "all values")] {

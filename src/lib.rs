@@ -20,6 +20,9 @@ pub mod reference;
 pub mod view;
 #[cfg(feature = "render")]
 pub mod render;
+pub mod studio;
+#[cfg(feature = "render")]
+pub mod preview;
 pub mod explain;
 pub mod report;
 pub mod cli;

@@ -26,6 +26,24 @@ const ALLOWED: &[(&str, &[&str])] = &[
     ("reference", &["scene"]),
     ("view", &["hash", "diagnostic", "semantic", "graph", "node", "weave"]),
     ("render", &["semantic", "module", "plan", "scene", "compile"]),
+    (
+        "studio",
+        &[
+            "diagnostic",
+            "semantic",
+            "ron",
+            "graph",
+            "node",
+            "weave",
+            "module",
+            "compile",
+            "verify",
+            "scene",
+            "reference",
+            "render",
+        ],
+    ),
+    ("preview", &["diagnostic", "node", "compile", "scene", "reference", "render", "studio"]),
 ];
 
 fn sources(folder: &Path, files: &mut Vec<PathBuf>) {

@@ -4,14 +4,13 @@ use std::path::PathBuf;
 
 use clap::Args;
 
-use super::assets;
 use super::context::Context;
 use super::exit::{Exit, Outcome};
-use super::load::Loader;
 use super::output;
 use super::watch::watch;
-use super::weave::{Input, Weaver};
-use crate::compile::Options;
+use crate::studio::assets;
+use crate::studio::load::Loader;
+use crate::studio::weave::{Input, Known, Weaver};
 
 /// Report every mistake in graphs or a scene, without writing anything
 #[derive(Args, Debug)]
@@ -40,7 +39,8 @@ impl Check {
         let (catalog, found) = loader.catalog(&self.nodes)?;
         // Here the person asks about everything, so a broken node file counts.
         let mut broken = context.report(&found);
-        let weaver = Weaver { context, loader, catalog: &catalog, options: Options::default(), set: &[], images: true };
+        let known = Known::default();
+        let weaver = Weaver { images: true, ..Weaver::new(context, loader, &catalog, &known) };
         let shaders = match weaver.read(&self.files)? {
             Input::Graphs(graphs) => vec![weaver.weave_graphs(graphs)?],
             Input::Scene(scene, file) => {

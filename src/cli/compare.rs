@@ -7,7 +7,7 @@ use clap::Args;
 use super::context::Context;
 use super::exit::{Failure, Outcome};
 use super::render::{Reference, size};
-use super::settings::Assignment;
+use crate::studio::settings::Assignment;
 
 /// Try every kind of shadow on a light of a scene, and measure each against the truth
 #[derive(Args, Debug)]

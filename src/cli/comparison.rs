@@ -1,6 +1,6 @@
 //! One row per kind of shadow: picture, visibility, error against the truth, and the figures.
 
-use std::path::PathBuf;
+use std::sync::atomic::AtomicBool;
 
 use font8x8::legacy::BASIC_LEGACY;
 use image::{Rgba, RgbaImage};
@@ -9,18 +9,17 @@ use serde_json::json;
 use super::compare::Compare;
 use super::context::Context;
 use super::exit::{Exit, Failure, Outcome};
-use super::load::{Document, Loader};
 use super::output;
-use super::picture::{Drawn, failure, late, pixels, unwritable};
-use super::render::{Aov, Reference, Render, Samples, adapter_options};
-use super::settings::{Assignment, Target};
-use super::truth;
-use crate::compile::Output;
-use crate::diagnostic::{Diagnostic, Place};
+use super::picture::{late, unwritable};
+use super::render::adapter_options;
 use crate::node::Catalog;
-use crate::reference::Metrics;
-use crate::render::Gpu;
 use crate::render::image_file::{Display, ToneCurve, encode_png};
+use crate::render::{Frame, Gpu};
+use crate::studio::load::Loader;
+use crate::studio::measure::{Comparison, Point, error_map, measure, shadow_kinds, shadow_of};
+use crate::studio::truth::Reference;
+use crate::studio::weave::{Known, Weaver};
+use crate::studio::{self, Shown, Subject};
 
 /// Space around pictures, and the height of a line of text.
 const GAP: u32 = 8;
@@ -28,13 +27,9 @@ const LINE: u32 = 16;
 const INK: Rgba<u8> = Rgba([225, 225, 225, 255]);
 const PAPER: Rgba<u8> = Rgba([24, 25, 28, 255]);
 
-/// What one kind of shadow came to.
+/// What one kind of shadow came to, with its pictures.
 struct Row {
-    kind: String,
-    reference: &'static str,
-    metrics: Metrics,
-    /// Sum of all passes but the main one, and the main one, on the adapter.
-    milliseconds: (Option<f64>, Option<f64>),
+    point: Point,
     pictures: Option<[RgbaImage; 3]>,
 }
 
@@ -42,58 +37,46 @@ pub(super) fn run(command: &Compare, context: &Context) -> Outcome {
     let loader = Loader::default();
     let (catalog, found) = loader.catalog(&command.nodes)?;
     context.report(&found);
-    let shadow = shadow_of(command, &loader, &catalog)?;
     let kinds = kinds(command, &catalog)?;
+    let files = [command.scene.clone()];
+    let subject = Subject { files: &files, scene: None, shape: &Shown::Sphere };
+    let quiet = Context { quiet: true, ..*context };
+    let known = Known::default();
+    let weaver = Weaver { set: &command.set, ..Weaver::new(&quiet, &loader, &catalog, &known) };
+    let shadow = shadow_of(&subject, &command.light, &weaver)?;
+    let comparison = Comparison {
+        light: &command.light,
+        shadow: &shadow,
+        kinds: &kinds,
+        reference: command.reference.map(Reference::from),
+        samples: None,
+        camera: None,
+        size: command.size,
+        pictures: command.output.is_some(),
+    };
     let bar = late(context, "comparing", Some(kinds.len() as u64));
-    let mut gpu = Gpu::new(&adapter_options(command.adapter.as_deref())).map_err(failure)?;
+    let mut gpu = Gpu::new(&adapter_options(command.adapter.as_deref())).map_err(studio::Failure::from)?;
     // Every shadow pays for its own maps.
     gpu.keep_maps(0);
-    let mut gpu = Some(gpu);
-    let quiet = Context { quiet: true, ..*context };
-    let visibility = Output::Visibility(command.light.clone());
-    // Rays know nothing of a shadow, so that one picture of them serves all kinds.
-    let mut by_rays: Option<Vec<[f32; 4]>> = None;
-    let mut rows = Vec::new();
-    let mut adapter = String::new();
-    for kind in &kinds {
-        let has_width = catalog.get(kind).and_then(|f| f.header().ok()).is_some_and(|h| {
-            h.options.iter().any(|o| o.name == "width") && h.options.iter().any(|o| o.name == "weights")
-        });
-        let reference = command.reference.unwrap_or(if has_width { Reference::Pcf } else { Reference::Rays });
-        let ask = |output: &Output| asked(command, &shadow, kind, output.clone());
-        let seen = pixels(&ask(&visibility), &quiet, &loader, &mut gpu)?;
-        let compute = || {
-            let command = Render { reference: Some(reference), ..ask(&visibility) };
-            truth::pixels(&command, &quiet, &loader).map(|(pixels, _)| pixels)
-        };
-        let filtered;
-        let truth = match (reference, &mut by_rays) {
-            (Reference::Pcf, _) => {
-                filtered = compute()?;
-                &filtered
-            }
-            (Reference::Rays, Some(known)) => known,
-            (Reference::Rays, unknown) => unknown.insert(compute()?),
-        };
-        let pairs = seen.pixels.iter().zip(truth).filter(|(a, b)| a[3] > 0.0 && b[3] > 0.0);
-        let metrics = Metrics::new(pairs.map(|(a, b)| (f64::from(a[0]), f64::from(b[0]))));
-        let pictures = match &command.output {
-            Some(_) => {
-                let lit = pixels(&ask(&Output::Radiance), &quiet, &loader, &mut gpu)?;
-                Some([decoded(&lit, ToneCurve::Filmic)?, decoded(&seen, ToneCurve::None)?, error_map(&seen, truth)])
-            }
-            None => None,
-        };
-        adapter = seen.adapter.clone();
-        let sum = |of: &dyn Fn(&str) -> bool| {
-            seen.timings.iter().filter(|t| of(&t.name)).map(|t| t.milliseconds).sum::<Option<f64>>()
-        };
-        let milliseconds = (sum(&|name| name != "main"), sum(&|name| name == "main"));
-        let reference = if reference == Reference::Pcf { "pcf" } else { "rays" };
-        rows.push(Row { kind: kind.clone(), reference, metrics, milliseconds, pictures });
+    let cancel = AtomicBool::new(false);
+    let mut measured = Vec::new();
+    measure(&subject, &comparison, &weaver, &mut gpu, &cancel, |row| {
+        let errors = row.lit.is_some().then(|| error_picture(&row.seen, row.truth));
+        measured.push((row.point, row.lit, row.seen, errors));
         bar.inc(1);
+    })?;
+    let mut rows = Vec::new();
+    for (point, lit, seen, errors) in measured {
+        let pictures = match (lit, errors) {
+            (Some(lit), Some(errors)) => {
+                Some([decoded(&lit, ToneCurve::Filmic)?, decoded(&seen, ToneCurve::None)?, errors])
+            }
+            _ => None,
+        };
+        rows.push(Row { point, pictures });
     }
     bar.finish_and_clear();
+    let adapter = rows.last().map(|r| r.point.adapter.clone()).unwrap_or_default();
     output::print(if context.is_json() { listed(&rows, &adapter) } else { table(&rows, &adapter) }.as_bytes())?;
     if let Some(path) = &command.output {
         let mut bytes = std::io::Cursor::new(Vec::new());
@@ -103,103 +86,41 @@ pub(super) fn run(command: &Compare, context: &Context) -> Outcome {
     Ok(Exit::Done)
 }
 
-/// The name of the only shadow of the light's graph.
-fn shadow_of(command: &Compare, loader: &Loader, catalog: &Catalog) -> Result<String, Failure> {
-    let fail = |message: String, help: &str| {
-        Failure::from(vec![Diagnostic::error("ST0521", message, Place::default()).help(help)])
-    };
-    let Some(Document::Scene(scene)) = loader.document(&command.scene)? else {
-        return Err(fail(
-            format!("`{}` is not a scene that can be used", command.scene.display()),
-            "see `shadetree check`",
-        ));
-    };
-    let Some(light) = scene.lights.iter().find(|l| l.name == command.light) else {
-        let names: Vec<&str> = scene.lights.iter().map(|l| l.name.as_str()).collect();
-        let message = format!("the scene has no light `{}`", command.light);
-        return Err(fail(message, &format!("its lights are {}", names.join(", "))));
-    };
-    let path = super::load::relative(&light.graph.path, &command.scene.display().to_string());
-    let graph = loader.named_graph(&path, &light.name, light.graph.span.as_ref());
-    let graph = graph.ok_or_else(|| Failure::from(loader.take_found()))?;
-    let nodes = graph.graph.nodes.iter().filter(|(_, node)| is_shadow(catalog, &node.kind));
-    let shadows: Vec<&String> = nodes.map(|(name, _)| name).collect();
-    match shadows[..] {
-        [shadow] => Ok(format!("{}/{shadow}", light.name)),
-        _ => {
-            let message = format!("the light `{}` has {} shadows", light.name, shadows.len());
-            Err(fail(message, "compare a light whose graph has one shadow node"))
-        }
-    }
-}
-
-fn is_shadow(catalog: &Catalog, kind: &str) -> bool {
-    catalog.get(kind).and_then(|f| f.header().ok()).is_some_and(|h| h.category == "shadow")
-}
-
 fn kinds(command: &Compare, catalog: &Catalog) -> Result<Vec<String>, Failure> {
-    let all: Vec<&str> = catalog.kinds().filter(|kind| is_shadow(catalog, kind)).collect();
-    if let Some(wrong) = command.only.iter().find(|kind| !all.contains(&kind.as_str())) {
+    let all = shadow_kinds(catalog);
+    if let Some(wrong) = command.only.iter().find(|kind| !all.contains(kind)) {
         let message = format!("`{wrong}` is not a kind of shadow");
         return Err(Failure::usage(message, format!("kinds are {}", all.join(", "))));
     }
-    let wanted = |kind: &&&str| command.only.is_empty() || command.only.iter().any(|only| only == *kind);
-    Ok(all.iter().filter(wanted).map(|kind| (*kind).to_owned()).collect())
+    let wanted = |kind: &String| command.only.is_empty() || command.only.contains(kind);
+    Ok(all.into_iter().filter(wanted).collect())
 }
 
-/// The `render` that shows one kind.
-fn asked(command: &Compare, shadow: &str, kind: &str, output: Output) -> Render {
-    let swap = Assignment { node: shadow.into(), name: "kind".into(), value: kind.into(), target: Target::Kind };
-    Render {
-        files: vec![command.scene.clone()],
-        output: PathBuf::from("comparison.exr"),
-        scene: None,
-        size: command.size,
-        samples: if output == Output::Radiance { Samples::Four } else { Samples::One },
-        aov: Aov::Output(output),
-        reference: None,
-        reference_samples: None,
-        kernel: None,
-        set: command.set.clone(),
-        option: Vec::new(),
-        kind: vec![swap],
-        adapter: command.adapter.clone(),
-        nodes: command.nodes.clone(),
-        watch: false,
-    }
+fn name(reference: Reference) -> &'static str {
+    if reference == Reference::Pcf { "pcf" } else { "rays" }
 }
 
 /// As a screen shows it.
-fn decoded(drawn: &Drawn, tone: ToneCurve) -> Result<RgbaImage, Failure> {
+fn decoded(drawn: &Frame, tone: ToneCurve) -> Result<RgbaImage, Failure> {
     let display = Display { tone, ..Display::default() };
     let bytes = encode_png(drawn.size, &drawn.pixels, &display, &[]).map_err(unwritable)?;
     Ok(image::load_from_memory(&bytes).map_err(unwritable)?.into_rgba8())
 }
 
-/// White where right, red where too light, blue where too dark; full colour at a difference of a quarter.
-fn error_map(seen: &Drawn, truth: &[[f32; 4]]) -> RgbaImage {
-    let (width, height) = seen.size;
-    RgbaImage::from_fn(width, height, |x, y| {
-        let index = (y * width + x) as usize;
-        let (a, b) = (seen.pixels[index], truth[index]);
-        if a[3] <= 0.0 || b[3] <= 0.0 {
-            return Rgba([60, 60, 60, 255]);
-        }
-        let difference = (a[0] - b[0]).clamp(-0.25, 0.25) * 4.0;
-        #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "between 0 and 255")]
-        let rest = ((1.0 - difference.abs()) * 255.0).round() as u8;
-        if difference > 0.0 { Rgba([255, rest, rest, 255]) } else { Rgba([rest, rest, 255, 255]) }
-    })
+fn error_picture(seen: &Frame, truth: &[[f32; 4]]) -> RgbaImage {
+    let colors = error_map(&seen.pixels, truth);
+    RgbaImage::from_fn(seen.size.0, seen.size.1, |x, y| Rgba(colors[(y * seen.size.0 + x) as usize]))
 }
 
 fn table(rows: &[Row], adapter: &str) -> String {
-    let wide = rows.iter().map(|r| r.kind.len()).max().unwrap_or(0);
+    let wide = rows.iter().map(|r| r.point.kind.len()).max().unwrap_or(0);
     let mut text = format!(
         "{:wide$} {:>5} {:>8} {:>8} {:>7} {:>8} {:>10} {:>8} {:>8}\n",
         "shadow", "truth", "rms", "bias", "most", "too lit", "too dark", "maps ms", "main ms"
     );
     let time = |t: Option<f64>| t.map_or("-".to_owned(), |t| format!("{t:.2}"));
-    for Row { kind, reference, metrics: m, milliseconds, .. } in rows {
+    for Row { point, .. } in rows {
+        let (kind, reference, m) = (&point.kind, name(point.reference), &point.metrics);
         text += &format!(
             "{kind:wide$} {reference:>5} {:>8.4} {:>+8.4} {:>7.3} {:>7.2}% {:>9.2}% {:>8} {:>8}\n",
             m.rms,
@@ -207,8 +128,8 @@ fn table(rows: &[Row], adapter: &str) -> String {
             m.most,
             m.false_lit * 100.0,
             m.false_dark * 100.0,
-            time(milliseconds.0),
-            time(milliseconds.1),
+            time(point.maps_milliseconds),
+            time(point.main_milliseconds),
         );
     }
     text + &format!("one frame each on {adapter}; `too lit` and `too dark` count pixels off by more than 0.05\n")
@@ -216,12 +137,13 @@ fn table(rows: &[Row], adapter: &str) -> String {
 
 fn listed(rows: &[Row], adapter: &str) -> String {
     let row = |r: &Row| {
+        let r = &r.point;
         let m = &r.metrics;
         json!({
-            "schema": 1, "shadow": r.kind, "reference": r.reference, "adapter": adapter, "pixels": m.pixels,
+            "schema": 1, "shadow": r.kind, "reference": name(r.reference), "adapter": adapter, "pixels": m.pixels,
             "rms": m.rms, "bias": m.bias, "max": m.most, "p99": m.percentile_99, "over_1_255": m.over_step,
             "over_0.05": m.over_twentieth, "false_lit": m.false_lit, "false_dark": m.false_dark,
-            "maps_ms": r.milliseconds.0, "main_ms": r.milliseconds.1,
+            "maps_ms": r.maps_milliseconds, "main_ms": r.main_milliseconds,
         })
     };
     rows.iter().map(|r| format!("{}\n", row(r))).collect()
@@ -241,7 +163,10 @@ fn sheet(rows: &[Row], adapter: &str) -> RgbaImage {
         let at = (index % 2 * cell_width + GAP, index / 2 * cell_height + LINE + 2 * GAP);
         let label = format!(
             "{}  rms {:.4}  bias {:+.4}  against {}",
-            row.kind, row.metrics.rms, row.metrics.bias, row.reference
+            row.point.kind,
+            row.point.metrics.rms,
+            row.point.metrics.bias,
+            name(row.point.reference)
         );
         write(&mut sheet, at, &label);
         for (i, picture) in (0..).zip(row.pictures.iter().flatten()) {

@@ -6,6 +6,7 @@ use clap::ValueEnum;
 
 use crate::diagnostic::{Diagnostic, Severity, has_errors};
 use crate::report;
+use crate::studio::Listener;
 
 /// Form of messages and listings.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
@@ -90,5 +91,19 @@ impl Context {
     #[cfg(feature = "render")]
     pub(super) fn draws_progress(&self) -> bool {
         !self.quiet && !self.is_json() && std::io::stderr().is_terminal()
+    }
+}
+
+impl Listener for Context {
+    fn found(&self, diagnostics: &[Diagnostic]) {
+        self.report(diagnostics);
+    }
+
+    fn detail(&self, message: &str) {
+        Self::detail(self, message);
+    }
+
+    fn note(&self, message: &str) {
+        self.say(message);
     }
 }

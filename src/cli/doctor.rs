@@ -7,8 +7,8 @@ use serde_json::{Value as Json, json};
 
 use super::context::Context;
 use super::exit::Outcome;
-use super::load::Loader;
 use super::{Exit, output};
+use crate::studio::load::Loader;
 
 /// Show what this machine and this build can do
 #[derive(Args, Debug)]

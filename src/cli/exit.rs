@@ -3,6 +3,7 @@
 use std::path::Path;
 
 use crate::diagnostic::{Diagnostic, Place};
+use crate::studio::{self, FailureKind};
 
 /// Exit codes. 101 (a panic) is a fault in the program.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -17,6 +18,17 @@ pub enum Exit {
     Io = 3,
     /// No suitable graphics adapter.
     NoAdapter = 4,
+}
+
+impl From<FailureKind> for Exit {
+    fn from(kind: FailureKind) -> Self {
+        match kind {
+            FailureKind::Input | FailureKind::Cancelled => Self::Input,
+            FailureKind::Usage => Self::Usage,
+            FailureKind::Unreadable => Self::Io,
+            FailureKind::NoAdapter => Self::NoAdapter,
+        }
+    }
 }
 
 /// Why a command did not do what it was asked.
@@ -43,6 +55,12 @@ impl Failure {
         let place = Place::file(path.display().to_string());
         let help = "give -o a path in a folder that exists and that you may write to";
         Self::new(Exit::Io, Diagnostic::error("ST0505", message, place).help(help))
+    }
+}
+
+impl From<studio::Failure> for Failure {
+    fn from(failure: studio::Failure) -> Self {
+        Self { exit: failure.kind.into(), diagnostics: failure.diagnostics }
     }
 }
 

@@ -6,9 +6,9 @@ use clap::Args;
 
 use super::context::Context;
 use super::exit::{Exit, Failure, Outcome};
-use super::load::{Document, Loader};
 use super::output;
 use crate::diagnostic::{Diagnostic, Place};
+use crate::studio::load::{Document, Loader};
 use crate::{graph, scene};
 
 /// Write graph and scene files in canonical form

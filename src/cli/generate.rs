@@ -6,14 +6,14 @@ use clap::{Args, ValueEnum};
 
 use super::context::Context;
 use super::exit::{Exit, Failure, Outcome};
-use super::load::Loader;
 use super::output;
-use super::settings::{Assignment, overrides};
 use super::watch::watch;
-use super::weave::{Input, Shader, Weaver};
 use crate::compile::Options;
 use crate::export::{Target, export};
 use crate::reflect::reflect;
+use crate::studio::load::Loader;
+use crate::studio::settings::{Assignment, overrides};
+use crate::studio::weave::{Input, Known, Shader, Weaver};
 
 /// Weave graphs into a shader and print it
 #[derive(Args, Debug)]
@@ -46,7 +46,7 @@ pub(super) struct Generate {
     #[arg(long, value_name = "NODE.NAME=VALUE")]
     option: Vec<Assignment>,
     /// Make a node one of another kind, with its links
-    #[arg(long, value_name = "NODE=KIND", value_parser = super::settings::kind)]
+    #[arg(long, value_name = "NODE=KIND", value_parser = crate::studio::settings::kind)]
     kind: Vec<Assignment>,
     /// Give a port another value
     #[arg(long, value_name = "NODE.PORT=VALUE")]
@@ -117,7 +117,8 @@ impl Generate {
         context.report(&found);
         let options = Options { bake: self.bake, ..Options::default() };
         let set = overrides(&self.kind, &self.set, &self.option);
-        let weaver = Weaver { context, loader, catalog: &catalog, options, set: &set, images: false };
+        let known = Known::default();
+        let weaver = Weaver { options, set: &set, ..Weaver::new(context, loader, &catalog, &known) };
         let shaders = match weaver.read(&self.files)? {
             Input::Graphs(graphs) => vec![weaver.weave_graphs(graphs)?],
             Input::Scene(scene, file) => weaver.weave_scene(&scene, &file)?,

@@ -2,7 +2,6 @@
 //!
 //! stdout is data, stderr is messages and progress, `-` is stdin or stdout. Exit codes: see [`Exit`].
 
-mod assets;
 mod check;
 #[cfg(feature = "render")]
 mod comparison;
@@ -14,22 +13,15 @@ mod exit;
 mod explain;
 mod fmt;
 mod generate;
-mod load;
 mod new;
 mod nodes;
 mod output;
 #[cfg(feature = "render")]
 mod picture;
 mod render;
-mod settings;
-#[cfg(feature = "render")]
-mod stage;
 #[cfg(feature = "render")]
 mod truth;
-#[cfg(feature = "render")]
-mod truth_light;
 mod watch;
-mod weave;
 
 use std::ffi::OsString;
 use std::process::ExitCode;
@@ -171,8 +163,6 @@ mod tests {
     #[test]
     fn the_built_in_files_are_in_order() {
         use crate::diagnostic::SourceText;
-        let (scene, found) = crate::scene::read(&SourceText::new("stage.ron", include_str!("stage.ron")));
-        assert!(scene.is_some() && found.is_empty(), "{found:?}");
         let starter = include_str!("starter.ron");
         let (graph, found) = crate::graph::read(&SourceText::new("starter.ron", starter));
         assert_eq!(found, []);

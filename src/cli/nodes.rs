@@ -7,10 +7,10 @@ use clap::Args;
 
 use super::context::{Context, Format};
 use super::exit::Outcome;
-use super::load::Loader;
 use super::{Exit, output};
 use crate::diagnostic::{Diagnostic, Place};
 use crate::node::{self, Choices};
+use crate::studio::load::Loader;
 
 /// List the nodes, or describe one port by port
 #[derive(Args, Debug)]

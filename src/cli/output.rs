@@ -8,6 +8,7 @@ use tempfile::NamedTempFile;
 
 use super::exit::Failure;
 use crate::diagnostic::{Diagnostic, Place};
+pub(super) use crate::studio::load::is_dash;
 
 /// The temporary files that are being written, to be removed on Ctrl-C.
 static PENDING: Mutex<Vec<PathBuf>> = Mutex::new(Vec::new());
@@ -27,11 +28,6 @@ pub(super) fn handle_interrupt() {
         }
         std::process::exit(130);
     });
-}
-
-/// Whether the path stands for stdin or stdout.
-pub(super) fn is_dash(path: &Path) -> bool {
-    path.as_os_str() == "-"
 }
 
 /// Prints data. A reader that has gone away is not an error: `| head` is common.

@@ -6,7 +6,7 @@ use clap::{Args, ValueEnum};
 
 use super::context::Context;
 use super::exit::{Failure, Outcome};
-use super::settings::Assignment;
+use crate::studio::settings::Assignment;
 
 /// Render graphs or a scene to a picture
 #[derive(Args, Debug)]
@@ -51,7 +51,7 @@ pub(super) struct Render {
     #[arg(long, value_name = "NODE.NAME=VALUE")]
     pub(super) option: Vec<Assignment>,
     /// Make a node one of another kind, with its links: any shadow can be any other
-    #[arg(long, value_name = "NODE=KIND", value_parser = super::settings::kind)]
+    #[arg(long, value_name = "NODE=KIND", value_parser = crate::studio::settings::kind)]
     pub(super) kind: Vec<Assignment>,
     /// Part of an adapter's name, or `cpu` for a software one
     #[arg(long, value_name = "NAME")]
@@ -74,6 +74,16 @@ pub(super) enum Reference {
     Pcf,
     /// Rays to all parts of the light.
     Rays,
+}
+
+#[cfg(feature = "render")]
+impl From<Reference> for crate::studio::truth::Reference {
+    fn from(reference: Reference) -> Self {
+        match reference {
+            Reference::Pcf => Self::Pcf,
+            Reference::Rays => Self::Rays,
+        }
+    }
 }
 
 /// Samples per pixel.
@@ -143,6 +153,13 @@ impl Render {
             return Err(Failure::usage("--reference pcf takes 2 to 64 fine texels along a texel", help));
         }
         self.start(context)
+    }
+
+    /// What is to be seen.
+    #[cfg(feature = "render")]
+    pub(super) fn subject(&self) -> crate::studio::Subject<'_> {
+        let shape = &crate::studio::Shown::Sphere;
+        crate::studio::Subject { files: &self.files, scene: self.scene.as_deref(), shape }
     }
 
     #[cfg(not(feature = "render"))]

@@ -10,9 +10,8 @@ use notify::{Event, EventKind, RecursiveMode, Watcher};
 
 use super::context::Context;
 use super::exit::{Exit, Failure, Outcome};
-use super::load::{Loader, Stamp};
-use super::output::is_dash;
 use crate::diagnostic::{Diagnostic, Place};
+use crate::studio::load::{Loader, Stamp, absolute, is_dash};
 
 /// Editors write a file in several steps; a change counts once nothing more came for so long.
 const SETTLE: Duration = Duration::from_millis(100);
@@ -115,18 +114,6 @@ fn wait(
 fn concerns(touched: &BTreeMap<PathBuf, Option<Stamp>>, path: &Path) -> bool {
     let below = touched.range(path.to_path_buf()..).next().is_some_and(|(t, _)| t.starts_with(path));
     below || (path.extension().is_some_and(|e| e == "wgsl") && path.parent().is_some_and(|p| touched.contains_key(p)))
-}
-
-/// One spelling for a path, also for a file that is not there (yet).
-fn absolute(path: &Path) -> PathBuf {
-    if let Ok(full) = std::fs::canonicalize(path) {
-        return full;
-    }
-    let full = std::path::absolute(path).unwrap_or_else(|_| path.to_path_buf());
-    match (full.parent().map(absolute), full.file_name()) {
-        (Some(parent), Some(name)) => parent.join(name),
-        _ => full,
-    }
 }
 
 #[cfg(test)]

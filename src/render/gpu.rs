@@ -73,7 +73,7 @@ impl Gpu {
 
     /// Destroys the device, as a driver reset would.
     #[cfg(test)]
-    pub(super) fn lose(&self) {
+    pub(crate) fn lose(&self) {
         self.device.device.destroy();
     }
 

@@ -1,15 +1,15 @@
-//! `NODE.PORT=VALUE` and `NODE.NAME=VALUE` on the command line.
+//! Overrides: `NODE.PORT=VALUE`, `NODE.NAME=VALUE` and `NODE=KIND`, as the command line takes them.
 
-use super::exit::Failure;
+use super::failure::Failure;
 use crate::compile::NamedGraph;
 use crate::diagnostic::{Diagnostic, Place, did_you_mean};
 use crate::node::Catalog;
 use crate::semantic::Value;
 use crate::view::commands::change_kind;
 
-/// `NODE.PORT=VALUE`, read by clap.
+/// One override.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) struct Assignment {
+pub struct Assignment {
     /// Node, perhaps after its graph's name and a `/`.
     pub node: String,
     /// Port or option.
@@ -22,7 +22,7 @@ pub(super) struct Assignment {
 
 /// What an assignment changes.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub(super) enum Target {
+pub enum Target {
     /// The value of a port (`--set`).
     #[default]
     Port,
@@ -32,8 +32,8 @@ pub(super) enum Target {
     Kind,
 }
 
-/// `NODE=KIND`, read by clap.
-pub(super) fn kind(text: &str) -> Result<Assignment, String> {
+/// Reads `NODE=KIND`. The error says what is wrong.
+pub fn kind(text: &str) -> Result<Assignment, String> {
     match text.split_once('=').map(|(node, kind)| (node.trim(), kind.trim())) {
         Some((node, kind)) if !node.is_empty() && !kind.is_empty() => {
             Ok(Assignment { node: node.into(), name: "kind".into(), value: kind.into(), target: Target::Kind })
@@ -80,14 +80,28 @@ impl Assignment {
     }
 }
 
-/// Everything that the command line overrides.
-pub(super) fn overrides(kinds: &[Assignment], set: &[Assignment], option: &[Assignment]) -> Vec<Assignment> {
+/// All overrides in the order in which they apply.
+pub fn overrides(kinds: &[Assignment], set: &[Assignment], option: &[Assignment]) -> Vec<Assignment> {
     let options = option.iter().map(|a| Assignment { target: Target::Option, ..a.clone() });
     kinds.iter().chain(set).cloned().chain(options).collect()
 }
 
+/// Puts overrides into graphs, and those that name one of the stage's lights into these.
+pub fn apply_on_stage(
+    assignments: &[Assignment],
+    graphs: &mut [NamedGraph],
+    lights: &mut [NamedGraph],
+    catalog: &Catalog,
+) -> Result<(), Failure> {
+    let of_stage = |a: &&Assignment| a.node.split_once('/').is_some_and(|(g, _)| lights.iter().any(|l| l.name == g));
+    let (own, others): (Vec<&Assignment>, Vec<&Assignment>) = assignments.iter().partition(of_stage);
+    let owned = |all: Vec<&Assignment>| all.into_iter().cloned().collect::<Vec<_>>();
+    apply(&owned(own), lights, catalog)?;
+    apply(&owned(others), graphs, catalog)
+}
+
 /// Puts overrides into the graphs that have such a node. Ports, options and types are checked when compiling.
-pub(super) fn apply(assignments: &[Assignment], graphs: &mut [NamedGraph], catalog: &Catalog) -> Result<(), Failure> {
+pub fn apply(assignments: &[Assignment], graphs: &mut [NamedGraph], catalog: &Catalog) -> Result<(), Failure> {
     for assignment in assignments {
         let wrong = |message| {
             let place = Place::default().node(&assignment.node).port(&assignment.name);

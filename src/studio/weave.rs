@@ -1,32 +1,66 @@
-//! From files to proven shaders: what `generate`, `check` and `render` have in common.
+//! From files to proven shaders.
 
+use std::cell::RefCell;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 use super::assets::check_images;
-use super::context::Context;
-use super::exit::Failure;
-use super::load::{Document, Loader, relative, stems};
+use super::failure::{Failure, Listener};
+use super::load::{Document, Loader, absolute, relative, stems};
 use super::settings::{self, Assignment};
-use crate::compile::{Compiled, NamedGraph, Options, compile, locate};
+use super::wiring::{Resolved, wiring};
+use crate::compile::{Compiled, NamedGraph, Options, compile_watched, locate};
 use crate::diagnostic::{Diagnostic, Place, did_you_mean, has_errors};
 use crate::graph;
-use crate::node::Catalog;
+use crate::node::{Catalog, Definition};
 use crate::scene::{FileReference, Scene, Setting, Settings};
 use crate::verify::{Verified, verify};
+use crate::weave::{Root, is_light, is_surface};
 
 /// A shader that naga accepted.
 #[derive(Debug)]
-pub(super) struct Shader {
+pub struct Shader {
     /// Names of the objects that have it; none outside a scene.
-    pub(super) objects: Vec<String>,
-    pub(super) compiled: Compiled,
-    pub(super) verified: Verified,
+    pub objects: Vec<String>,
+    /// The shader with its plan.
+    pub compiled: Arc<Compiled>,
+    /// What naga made of it.
+    pub verified: Arc<Verified>,
+    /// Whether it writes light, rather than a value.
+    pub radiance: bool,
+    /// How the ports of its graphs are fed, where that was asked for.
+    pub wiring: Vec<Resolved>,
+}
+
+/// What was found out before and is the same again: texts that naga has accepted.
+#[derive(Debug, Default)]
+pub struct Known {
+    proven: RefCell<BTreeMap<String, Arc<Verified>>>,
+}
+
+impl Known {
+    /// More shaders than a scene has; then it starts afresh.
+    const MOST: usize = 256;
+
+    fn verify(&self, compiled: &Compiled) -> Result<Arc<Verified>, Vec<Diagnostic>> {
+        let wgsl = &compiled.module.wgsl;
+        if let Some(known) = self.proven.borrow().get(wgsl) {
+            return Ok(known.clone());
+        }
+        let verified = Arc::new(verify(&compiled.module)?);
+        let mut proven = self.proven.borrow_mut();
+        if proven.len() >= Self::MOST {
+            proven.clear();
+        }
+        proven.insert(wgsl.clone(), verified.clone());
+        Ok(verified)
+    }
 }
 
 /// What a person gave: graphs to be woven together, or one scene.
 #[derive(Debug)]
-pub(super) enum Input {
+pub enum Input {
     /// Graphs, flattened.
     Graphs(Vec<NamedGraph>),
     /// A scene and its file.
@@ -34,19 +68,34 @@ pub(super) enum Input {
 }
 
 /// Loads, weaves and proves with one catalogue and one set of overrides.
-pub(super) struct Weaver<'a> {
-    pub(super) context: &'a Context,
-    pub(super) loader: &'a Loader,
-    pub(super) catalog: &'a Catalog,
-    pub(super) options: Options,
-    pub(super) set: &'a [Assignment],
+pub struct Weaver<'a> {
+    /// Who is told what is found.
+    pub listener: &'a dyn Listener,
+    /// Where files come from.
+    pub loader: &'a Loader,
+    /// The nodes.
+    pub catalog: &'a Catalog,
+    /// How to compile.
+    pub options: Options,
+    /// Overrides.
+    pub set: &'a [Assignment],
     /// Whether the pictures that shaders read must be there.
-    pub(super) images: bool,
+    pub images: bool,
+    /// Whether shaders come with their wiring.
+    pub wiring: bool,
+    /// What need not be found out again.
+    pub known: &'a Known,
 }
 
-impl Weaver<'_> {
+impl<'a> Weaver<'a> {
+    /// A weaver without overrides, for what is seen.
+    pub fn new(listener: &'a dyn Listener, loader: &'a Loader, catalog: &'a Catalog, known: &'a Known) -> Self {
+        let options = Options::default();
+        Self { listener, loader, catalog, options, set: &[], images: false, wiring: false, known }
+    }
+
     /// Reads all files. Everything that is wrong with any of them is reported before giving up.
-    pub(super) fn read(&self, files: &[PathBuf]) -> Result<Input, Failure> {
+    pub fn read(&self, files: &[PathBuf]) -> Result<Input, Failure> {
         let mut graphs = Vec::new();
         let mut scene = None;
         let mut broken = false;
@@ -66,12 +115,13 @@ impl Weaver<'_> {
             }
         }
         let found = self.loader.take_found();
-        broken |= self.context.report(&found);
+        self.listener.found(&found);
+        broken |= has_errors(&found);
         if let Some(failure) = worst {
             return Err(failure);
         }
         if broken {
-            return Err(Vec::new().into());
+            return Err(Failure::told());
         }
         match scene {
             Some((scene, path)) if files.len() == 1 => Ok(Input::Scene(scene, path)),
@@ -79,19 +129,42 @@ impl Weaver<'_> {
                 "a scene cannot be woven together with other files",
                 "give the scene alone; to see graphs in a scene, use `render GRAPH... --scene SCENE`",
             )),
-            None => Ok(Input::Graphs(graphs)),
+            None => Ok(Input::Graphs(self.focused(files, graphs))),
         }
     }
 
+    /// Where one node of one graph is looked at, that graph and those that light it.
+    fn focused(&self, files: &[PathBuf], graphs: Vec<NamedGraph>) -> Vec<NamedGraph> {
+        let Some(focus) = self.loader.focus() else { return graphs };
+        let lights = |named: &NamedGraph| {
+            let is = |what: fn(&Definition) -> bool| {
+                named.graph.nodes.values().any(|node| {
+                    let definition = self.catalog.get(&node.kind).and_then(|f| f.definition(&node.options).ok());
+                    definition.is_some_and(|d| what(&d))
+                })
+            };
+            is(is_light) && !is(is_surface)
+        };
+        let pairs = files.iter().zip(graphs);
+        pairs.filter(|(path, graph)| absolute(path) == focus.graph || lights(graph)).map(|(_, graph)| graph).collect()
+    }
+
+    /// Tells what the loader found. Answers whether there was an error.
+    pub fn tell_found(&self) -> bool {
+        let found = self.loader.take_found();
+        self.listener.found(&found);
+        has_errors(&found)
+    }
+
     /// Weaves graphs into one shader and proves it.
-    pub(super) fn weave(&self, graphs: &[NamedGraph], objects: Vec<String>) -> Result<Shader, Failure> {
+    pub fn weave(&self, graphs: &[NamedGraph], objects: Vec<String>) -> Result<Shader, Failure> {
         let (shader, found) = self.try_weave(graphs, objects);
-        self.context.report(&found);
-        shader.ok_or_else(|| Vec::new().into())
+        self.listener.found(&found);
+        shader.ok_or_else(Failure::told)
     }
 
     /// Weaves without reporting.
-    pub(super) fn try_weave(&self, graphs: &[NamedGraph], objects: Vec<String>) -> (Option<Shader>, Vec<Diagnostic>) {
+    pub fn try_weave(&self, graphs: &[NamedGraph], objects: Vec<String>) -> (Option<Shader>, Vec<Diagnostic>) {
         self.try_weave_as(graphs, objects, &self.options)
     }
 
@@ -101,22 +174,26 @@ impl Weaver<'_> {
         objects: Vec<String>,
         options: &Options,
     ) -> (Option<Shader>, Vec<Diagnostic>) {
-        let (compiled, mut found) = compile(graphs, self.catalog, options);
+        let (mut wires, mut radiance) = (Vec::new(), true);
+        let (compiled, mut found) = compile_watched(graphs, self.catalog, options, |woven| {
+            radiance = !matches!(woven.root, Root::Value { .. });
+            if self.wiring {
+                wires = wiring(woven, graphs);
+            }
+        });
         let Some(compiled) = compiled.filter(|_| !has_errors(&found)) else {
             return (None, found);
         };
-        match verify(&compiled.module) {
+        match self.known.verify(&compiled) {
             Ok(verified) => {
                 if self.images {
                     found.extend(check_images(&compiled.module, graphs, self.loader));
                 }
-                let shader = Shader { objects, compiled, verified };
+                let shader = Shader { objects, compiled: Arc::new(compiled), verified, radiance, wiring: wires };
                 (Some(shader).filter(|_| !has_errors(&found)), found)
             }
             Err(errors) => {
-                if self.context.verbose > 0 {
-                    self.context.detail(&compiled.module.wgsl);
-                }
+                self.listener.detail(&compiled.module.wgsl);
                 found.extend(errors.into_iter().map(|e| locate(e, graphs)));
                 (None, found)
             }
@@ -124,22 +201,21 @@ impl Weaver<'_> {
     }
 
     /// Graphs given on the command line, with `--set` applied, as one shader.
-    pub(super) fn weave_graphs(&self, mut graphs: Vec<NamedGraph>) -> Result<Shader, Failure> {
+    pub fn weave_graphs(&self, mut graphs: Vec<NamedGraph>) -> Result<Shader, Failure> {
         settings::apply(self.set, &mut graphs, self.catalog)?;
         self.weave(&graphs, Vec::new())
     }
 
     /// The light graphs of a scene, named as the scene names its lights.
-    #[cfg(feature = "render")]
-    pub(super) fn lights(&self, scene: &Scene, file: &Path) -> Result<Vec<NamedGraph>, Failure> {
+    pub fn lights(&self, scene: &Scene, file: &Path) -> Result<Vec<NamedGraph>, Failure> {
         let lights: Vec<_> = scene.lights.iter().map(|l| self.mentioned(&l.graph, &l.name, &l.set, file)).collect();
-        let failed = self.context.report(&self.loader.take_found());
+        let failed = self.tell_found();
         let all: Option<Vec<NamedGraph>> = lights.into_iter().collect();
-        all.filter(|_| !failed).ok_or_else(|| Vec::new().into())
+        all.filter(|_| !failed).ok_or_else(Failure::told)
     }
 
     /// The shaders of a scene's objects, equal ones once, in the order of the objects.
-    pub(super) fn weave_scene(&self, scene: &Scene, file: &Path) -> Result<Vec<Shader>, Failure> {
+    pub fn weave_scene(&self, scene: &Scene, file: &Path) -> Result<Vec<Shader>, Failure> {
         let lights: Vec<_> = scene.lights.iter().map(|l| self.mentioned(&l.graph, &l.name, &l.set, file)).collect();
         let mut surfaces: Vec<(String, Vec<NamedGraph>, Vec<String>)> = Vec::new();
         for object in &scene.objects {
@@ -157,10 +233,10 @@ impl Weaver<'_> {
             let surface = self.mentioned(&object.surface, &name, &object.set, file);
             surfaces.push((key, surface.into_iter().collect(), vec![object.name.clone()]));
         }
-        let mut failed = self.context.report(&self.loader.take_found());
+        let mut failed = self.tell_found();
         // Without one of its lights every surface would be told to lack it.
         let Some(lights) = lights.into_iter().collect::<Option<Vec<NamedGraph>>>() else {
-            return Err(Vec::new().into());
+            return Err(Failure::told());
         };
         // The surfaces that could be read may have mistakes of their own.
         surfaces.retain(|(_, surface, _)| !surface.is_empty());
@@ -184,7 +260,7 @@ impl Weaver<'_> {
             let (shader, found) = self.try_weave_as(&graphs, objects, &options);
             // A fault of a light shows with every surface, but is one fault.
             let new: Vec<Diagnostic> = found.into_iter().filter(|d| !shown.contains(d)).collect();
-            self.context.report(&new);
+            self.listener.found(&new);
             shown.extend(new);
             match shader {
                 Some(shader) => shaders.push(shader),
@@ -192,7 +268,7 @@ impl Weaver<'_> {
             }
         }
         if failed {
-            return Err(Vec::new().into());
+            return Err(Failure::told());
         }
         settings::apply(&unused, &mut lights.clone(), self.catalog)?;
         Ok(shaders)

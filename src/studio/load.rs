@@ -1,4 +1,5 @@
-//! From file names to graphs and scenes. Every file that is read is remembered, so that `--watch` knows what to watch.
+//! From file names to graphs and scenes. Every file that is read is remembered, so that a change can be noticed; a text
+//! that is being edited can stand in place of its file.
 
 use std::cell::{Cell, RefCell};
 use std::collections::{BTreeMap, BTreeSet};
@@ -7,8 +8,8 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::SystemTime;
 
-use super::exit::{Exit, Failure};
-use super::output::is_dash;
+use super::failure::{Failure, FailureKind};
+use super::focus::Focus;
 use crate::compile::NamedGraph;
 use crate::diagnostic::{Diagnostic, Place, SourceText, Span, has_errors};
 use crate::graph::{self, Graph};
@@ -23,7 +24,7 @@ const MAX_DEPTH: usize = 16;
 
 /// A file that a person gave, by what its root says it is.
 #[derive(Debug)]
-pub(super) enum Document {
+pub enum Document {
     /// `Graph(...)`
     Graph(Box<Graph>),
     /// `Scene(...)`
@@ -32,7 +33,10 @@ pub(super) enum Document {
 
 /// Reads files and collects what is wrong with them.
 #[derive(Debug, Default)]
-pub(super) struct Loader {
+pub struct Loader {
+    /// Texts by [`absolute`] path.
+    overlay: BTreeMap<PathBuf, Arc<str>>,
+    focus: Option<Focus>,
     touched: RefCell<BTreeMap<PathBuf, Option<Stamp>>>,
     found: RefCell<Vec<Diagnostic>>,
     unreadable: Cell<bool>,
@@ -40,14 +44,14 @@ pub(super) struct Loader {
 
 /// What tells that a file or folder has changed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) struct Stamp {
+pub struct Stamp {
     length: u64,
     modified: Option<SystemTime>,
 }
 
 impl Stamp {
     /// None where there is nothing.
-    pub(super) fn of(path: &Path) -> Option<Self> {
+    pub fn of(path: &Path) -> Option<Self> {
         let meta = std::fs::metadata(path).ok()?;
         // The time of a folder also tells of strangers in it, so what is in it is watched file by file.
         let modified = if meta.is_dir() { None } else { meta.modified().ok() };
@@ -56,13 +60,36 @@ impl Stamp {
 }
 
 impl Loader {
+    /// A loader for which texts stand in place of the files with these paths, whether there are such files or not. Paths
+    /// are compared by what they lead to.
+    pub fn with_overlay(overlay: BTreeMap<PathBuf, Arc<str>>) -> Self {
+        let overlay = overlay.into_iter().map(|(path, text)| (absolute(&path), text)).collect();
+        Self { overlay, ..Self::default() }
+    }
+
+    /// The same loader, for which one graph exports one of its nodes, whatever it says itself.
+    #[must_use]
+    pub fn with_focus(self, focus: Option<Focus>) -> Self {
+        Self { focus: focus.map(|f| Focus { graph: absolute(&f.graph), ..f }), ..self }
+    }
+
+    /// The graph that exports one of its nodes only.
+    pub fn focus(&self) -> Option<&Focus> {
+        self.focus.as_ref()
+    }
+
+    fn overlaid(&self, path: &Path) -> Option<&Arc<str>> {
+        // Looking at the file system is spared where nothing can be found.
+        if self.overlay.is_empty() { None } else { self.overlay.get(&absolute(path)) }
+    }
+
     /// Files and folders read so far, or looked for, each as it was just before.
-    pub(super) fn touched(&self) -> BTreeMap<PathBuf, Option<Stamp>> {
+    pub fn touched(&self) -> BTreeMap<PathBuf, Option<Stamp>> {
         self.touched.borrow().clone()
     }
 
     /// Whether some file could not be read.
-    pub(super) fn is_unreadable(&self) -> bool {
+    pub fn is_unreadable(&self) -> bool {
         self.unreadable.get()
     }
 
@@ -71,12 +98,12 @@ impl Loader {
     }
 
     /// Takes the diagnostics so far.
-    pub(super) fn take_found(&self) -> Vec<Diagnostic> {
+    pub fn take_found(&self) -> Vec<Diagnostic> {
         std::mem::take(&mut self.found.borrow_mut())
     }
 
     /// Adds one more.
-    pub(super) fn add(&self, diagnostic: Diagnostic) {
+    pub fn add(&self, diagnostic: Diagnostic) {
         self.found.borrow_mut().push(diagnostic);
     }
 
@@ -87,20 +114,24 @@ impl Loader {
     }
 
     /// Reads a file of bytes, at most 64 MiB; `-` is stdin.
-    pub(super) fn bytes(&self, path: &Path) -> Result<Vec<u8>, Failure> {
+    pub fn bytes(&self, path: &Path) -> Result<Vec<u8>, Failure> {
         let name = path.display().to_string();
-        let fail = |code, exit, message: String, help: &str| {
-            self.unreadable.set(self.unreadable.get() || exit == Exit::Io);
-            Failure::new(exit, Diagnostic::error(code, message, Place::file(&*name)).help(help))
+        let fail = |code, kind, message: String, help: &str| {
+            self.unreadable.set(self.unreadable.get() || kind == FailureKind::Unreadable);
+            Failure::new(kind, Diagnostic::error(code, message, Place::file(&*name)).help(help))
         };
         let unreadable = |e: std::io::Error| {
             let message = format!("cannot read {name}: {e}");
-            fail("ST0501", Exit::Io, message, "check the path and its permissions")
+            fail("ST0501", FailureKind::Unreadable, message, "check the path and its permissions")
         };
         let too_large = || {
             let message = format!("the file is larger than {} MiB", MAX_BYTES >> 20);
-            fail("ST0503", Exit::Input, message, "split it into subgraphs")
+            fail("ST0503", FailureKind::Input, message, "split it into subgraphs")
         };
+        if let Some(text) = self.overlaid(path) {
+            let bytes = text.as_bytes();
+            return if bytes.len() > MAX_BYTES { Err(too_large()) } else { Ok(bytes.to_vec()) };
+        }
         let mut bytes = Vec::new();
         // One byte more than allowed tells a file that grows, or a device without end, from one that fits.
         let limit = MAX_BYTES as u64 + 1;
@@ -111,7 +142,7 @@ impl Loader {
             let meta = std::fs::metadata(path).map_err(unreadable)?;
             if meta.is_dir() {
                 let message = format!("{name} is a folder, not a file");
-                return Err(fail("ST0502", Exit::Io, message, "name the files in it"));
+                return Err(fail("ST0502", FailureKind::Unreadable, message, "name the files in it"));
             }
             if meta.len() > MAX_BYTES as u64 {
                 return Err(too_large());
@@ -122,7 +153,7 @@ impl Loader {
     }
 
     /// Reads a text.
-    pub(super) fn text(&self, path: &Path) -> Result<Arc<SourceText>, Failure> {
+    pub fn text(&self, path: &Path) -> Result<Arc<SourceText>, Failure> {
         let name = path.display().to_string();
         match String::from_utf8(self.bytes(path)?) {
             Ok(text) => Ok(SourceText::new(name, text)),
@@ -134,23 +165,28 @@ impl Loader {
     }
 
     /// Reads a graph or scene, told apart by the name of the root. None if it has errors, which are kept.
-    pub(super) fn document(&self, path: &Path) -> Result<Option<Document>, Failure> {
+    pub fn document(&self, path: &Path) -> Result<Option<Document>, Failure> {
         Ok(self.document_with_text(path)?.1)
     }
 
     /// As [`Self::document`], with the text that it was read from.
-    pub(super) fn document_with_text(&self, path: &Path) -> Result<(Arc<SourceText>, Option<Document>), Failure> {
+    pub fn document_with_text(&self, path: &Path) -> Result<(Arc<SourceText>, Option<Document>), Failure> {
         let source = self.text(path)?;
         let document = match root_name(&source.text) {
             "Scene" => self.keep(scene::read(&source)).map(|s| Document::Scene(Box::new(s))),
             // Also for what is neither: the reader of graphs says what is missing.
-            _ => self.keep(graph::read(&source)).map(|g| Document::Graph(Box::new(g))),
+            _ => self.keep(graph::read(&source)).map(|mut g| {
+                if let Some(focus) = self.focus.as_ref().filter(|f| f.graph == absolute(path)) {
+                    focus.apply(&mut g);
+                }
+                Document::Graph(Box::new(g))
+            }),
         };
         Ok((source, document))
     }
 
     /// The graph with its subgraphs put in place. None if there are errors, which are kept.
-    pub(super) fn flatten(&self, graph: &Graph) -> Option<Graph> {
+    pub fn flatten(&self, graph: &Graph) -> Option<Graph> {
         let load = |path: &str, from: &str| -> Result<(String, Arc<Graph>), Vec<Diagnostic>> {
             let full = relative(path, from);
             let source = self.text(&full).map_err(|f| f.diagnostics)?;
@@ -158,7 +194,7 @@ impl Loader {
             match graph {
                 Some(graph) if !has_errors(&found) => {
                     self.found.borrow_mut().extend(found);
-                    Ok((canonical(&full), Arc::new(graph)))
+                    Ok((absolute(&full).display().to_string(), Arc::new(graph)))
                 }
                 _ => Err(found),
             }
@@ -168,7 +204,7 @@ impl Loader {
 
     /// Reads and flattens a graph file under a name. None if it has errors, which are kept.
     /// `mentioned` is where a scene names the file.
-    pub(super) fn named_graph(&self, path: &Path, name: &str, mentioned: Option<&Span>) -> Option<NamedGraph> {
+    pub fn named_graph(&self, path: &Path, name: &str, mentioned: Option<&Span>) -> Option<NamedGraph> {
         let here = |mut diagnostic: Diagnostic| {
             if let (None, Some(span)) = (&diagnostic.place.span, mentioned) {
                 diagnostic.place = Place::span(span.clone());
@@ -196,7 +232,7 @@ impl Loader {
     }
 
     /// The catalogue with the nodes of user folders. What is wrong with them is returned apart: it stops nothing.
-    pub(super) fn catalog(&self, folders: &[PathBuf]) -> Result<(Catalog, Vec<Diagnostic>), Failure> {
+    pub fn catalog(&self, folders: &[PathBuf]) -> Result<(Catalog, Vec<Diagnostic>), Failure> {
         let mut catalog = Catalog::embedded();
         let mut found = Vec::new();
         for folder in folders {
@@ -216,20 +252,29 @@ impl Loader {
         Ok((catalog, found))
     }
 
+    /// The node files in folders, sorted folder by folder.
+    pub fn node_files(&self, folders: &[PathBuf]) -> Result<Vec<PathBuf>, Failure> {
+        let mut all = Vec::new();
+        for folder in folders {
+            all.extend(self.wgsl_files(folder)?);
+        }
+        Ok(all)
+    }
+
     fn wgsl_files(&self, folder: &Path) -> Result<Vec<PathBuf>, Failure> {
         let mut files = Vec::new();
         let mut open = vec![(folder.to_path_buf(), 0)];
         let mut seen = BTreeSet::new();
         while let Some((folder, depth)) = open.pop() {
             // Links may lead back to where they are.
-            if !seen.insert(canonical(&folder)) {
+            if !seen.insert(absolute(&folder)) {
                 continue;
             }
             self.touch(&folder);
             let unreadable = |e: std::io::Error| {
                 let place = Place::file(folder.display().to_string());
                 let diagnostic = Diagnostic::error("ST0501", format!("cannot read the folder: {e}"), place);
-                Failure::new(Exit::Io, diagnostic.help("--nodes takes a folder of .wgsl files"))
+                Failure::new(FailureKind::Unreadable, diagnostic.help("--nodes takes a folder of .wgsl files"))
             };
             for entry in std::fs::read_dir(&folder).map_err(unreadable)? {
                 let path = entry.map_err(unreadable)?.path();
@@ -246,7 +291,7 @@ impl Loader {
 }
 
 /// A path as a file mentions it, seen from where the program runs.
-pub(super) fn relative(path: &str, mentioned_in: &str) -> PathBuf {
+pub fn relative(path: &str, mentioned_in: &str) -> PathBuf {
     let folder = match Path::new(mentioned_in).parent() {
         Some(folder) if mentioned_in != "-" => folder,
         _ => Path::new(""),
@@ -254,13 +299,25 @@ pub(super) fn relative(path: &str, mentioned_in: &str) -> PathBuf {
     folder.join(path)
 }
 
-/// One spelling per file, to notice that two paths lead to the same one.
-fn canonical(path: &Path) -> String {
-    std::fs::canonicalize(path).unwrap_or_else(|_| path.to_path_buf()).display().to_string()
+/// Whether the path stands for stdin or stdout.
+pub fn is_dash(path: &Path) -> bool {
+    path.as_os_str() == "-"
+}
+
+/// One spelling for a path, also for a file that is not there (yet).
+pub fn absolute(path: &Path) -> PathBuf {
+    if let Ok(full) = std::fs::canonicalize(path) {
+        return full;
+    }
+    let full = std::path::absolute(path).unwrap_or_else(|_| path.to_path_buf());
+    match (full.parent().map(absolute), full.file_name()) {
+        (Some(parent), Some(name)) => parent.join(name),
+        _ => full,
+    }
 }
 
 /// Names for graphs by the stems of their files, each once.
-pub(super) fn stems(paths: &[PathBuf]) -> Vec<String> {
+pub fn stems(paths: &[PathBuf]) -> Vec<String> {
     let mut names: Vec<String> = Vec::new();
     for path in paths {
         let stem = match path.file_stem() {
@@ -317,16 +374,29 @@ mod tests {
     }
 
     #[test]
+    fn texts_stand_in_place_of_files_however_they_are_spelt() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let path = folder.path().join("a.ron");
+        std::fs::write(&path, "old").expect("written");
+        let texts = [(path.clone(), "new"), (folder.path().join("unsaved.ron"), "made up")];
+        let loader = Loader::with_overlay(texts.into_iter().map(|(p, t)| (p, t.into())).collect());
+        let other = folder.path().join(".").join("a.ron");
+        assert_eq!(loader.text(&other).expect("there").text, "new");
+        assert_eq!(loader.text(&folder.path().join("unsaved.ron")).expect("there").text, "made up");
+        assert!(loader.touched().is_empty());
+    }
+
+    #[test]
     fn folders_and_missing_files_are_named() {
         let loader = Loader::default();
         let folder = tempfile::tempdir().expect("a folder");
         let failure = loader.bytes(folder.path()).expect_err("a folder");
-        assert_eq!((failure.exit, failure.diagnostics[0].code), (Exit::Io, "ST0502"));
+        assert_eq!((failure.kind, failure.diagnostics[0].code), (FailureKind::Unreadable, "ST0502"));
         let failure = loader.bytes(&folder.path().join("none")).expect_err("missing");
-        assert_eq!((failure.exit, failure.diagnostics[0].code), (Exit::Io, "ST0501"));
+        assert_eq!((failure.kind, failure.diagnostics[0].code), (FailureKind::Unreadable, "ST0501"));
         let binary = folder.path().join("b.ron");
         std::fs::write(&binary, [0xff, 0xfe]).expect("written");
         let failure = loader.text(&binary).expect_err("binary");
-        assert_eq!((failure.exit, failure.diagnostics[0].code), (Exit::Input, "ST0504"));
+        assert_eq!((failure.kind, failure.diagnostics[0].code), (FailureKind::Input, "ST0504"));
     }
 }

@@ -3,7 +3,7 @@
 use std::io::Cursor;
 use std::path::Path;
 
-use super::exit::{Exit, Failure};
+use super::failure::{Failure, FailureKind};
 use super::load::{Loader, relative};
 use crate::compile::NamedGraph;
 use crate::diagnostic::{Diagnostic, Place};
@@ -17,41 +17,38 @@ const MAX_SIDE: u32 = 16_384;
 const MAX_PICTURE: u64 = 1 << 30;
 
 /// Hands over the mesh of each object of a scene, in their order; tells everything that is wrong with any of them.
-pub(super) fn each_mesh(
-    scene: &Scene,
-    file: &Path,
-    loader: &Loader,
-    mut take: impl FnMut(Mesh),
-) -> Result<(), Failure> {
+pub fn each_mesh(scene: &Scene, file: &Path, loader: &Loader, mut take: impl FnMut(Mesh)) -> Result<(), Failure> {
     let mut found: Vec<Diagnostic> = Vec::new();
-    let mut exit = Exit::Input;
+    let mut kind = FailureKind::Input;
     for object in &scene.objects {
-        let Shape::Obj(reference) = &object.shape else {
-            take(object.shape.mesh().unwrap_or_default());
-            continue;
-        };
-        let text = loader.text(&relative(&reference.path, &file.display().to_string()));
-        let errors = match text {
-            Ok(source) => match scene::from_obj(&source) {
-                Ok(mesh) => {
-                    take(mesh);
-                    continue;
-                }
-                Err(errors) => errors,
-            },
+        match mesh_of(&object.shape, file, loader) {
+            Ok(mesh) => take(mesh),
             Err(failure) => {
-                exit = failure.exit;
-                failure.diagnostics.into_iter().map(|d| mentioned(d, reference.span.clone())).collect()
+                if failure.kind != FailureKind::Input {
+                    kind = failure.kind;
+                }
+                // Several objects may have one model, and its mistakes are told once.
+                found.extend(failure.diagnostics.into_iter().filter(|e| !found.contains(e)).collect::<Vec<_>>());
             }
-        };
-        // Several objects may have one model, and its mistakes are told once.
-        found.extend(errors.into_iter().filter(|e| !found.contains(e)).collect::<Vec<_>>());
+        }
     }
-    if found.is_empty() { Ok(()) } else { Err(Failure { exit, diagnostics: found }) }
+    if found.is_empty() { Ok(()) } else { Err(Failure { kind, diagnostics: found }) }
+}
+
+/// The mesh of a shape; what is wrong with its file is told where the file is mentioned.
+pub fn mesh_of(shape: &Shape, file: &Path, loader: &Loader) -> Result<Mesh, Failure> {
+    let Shape::Obj(reference) = shape else { return Ok(shape.mesh().unwrap_or_default()) };
+    match loader.text(&relative(&reference.path, &file.display().to_string())) {
+        Ok(source) => scene::from_obj(&source).map_err(Failure::from),
+        Err(failure) => Err(Failure {
+            diagnostics: failure.diagnostics.into_iter().map(|d| mentioned(d, reference.span.clone())).collect(),
+            ..failure
+        }),
+    }
 }
 
 /// The picture of the surroundings, where the scene names one.
-pub(super) fn environment_image(
+pub fn environment_image(
     of: &Environment,
     file: &Path,
     loader: &Loader,
@@ -74,7 +71,7 @@ fn mentioned(diagnostic: Diagnostic, span: Option<crate::diagnostic::Span>) -> D
 }
 
 /// A reader for the bytes of a picture, with limits on what it may promise.
-pub(super) fn picture(bytes: Vec<u8>) -> Result<image::ImageReader<Cursor<Vec<u8>>>, String> {
+pub fn picture(bytes: Vec<u8>) -> Result<image::ImageReader<Cursor<Vec<u8>>>, String> {
     let mut reader = image::ImageReader::new(Cursor::new(bytes)).with_guessed_format().map_err(|e| e.to_string())?;
     let mut limits = image::Limits::default();
     limits.max_image_width = Some(MAX_SIDE);
@@ -85,7 +82,7 @@ pub(super) fn picture(bytes: Vec<u8>) -> Result<image::ImageReader<Cursor<Vec<u8
 }
 
 /// What is wrong with the pictures that a shader reads, at the parameters that name them.
-pub(super) fn check_images(module: &Module, graphs: &[NamedGraph], loader: &Loader) -> Vec<Diagnostic> {
+pub fn check_images(module: &Module, graphs: &[NamedGraph], loader: &Loader) -> Vec<Diagnostic> {
     let mut found = Vec::new();
     for binding in &module.bindings {
         let Resource::Image { path, base, .. } = &binding.resource else { continue };

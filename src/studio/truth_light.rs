@@ -1,15 +1,13 @@
 //! What the truth needs to know of a light and of the shadows on it, from the wiring of its graph.
 
-use super::context::Context;
-use super::exit::Failure;
-use super::render::Render;
-use super::truth::no_truth;
+use super::failure::{Failure, Listener};
+use super::truth::{Wanted, no_truth};
 use crate::module::stored;
 use crate::node::SpaceSpec;
 use crate::reference::{Cut, Filter, Light, Taps, Weights, World, kernel};
 use crate::weave::{Node, Root, Wire, Woven};
 
-/// Fine texels along a texel where the command line does not say.
+/// Fine texels along a texel unless said otherwise.
 const FACTOR: u32 = 8;
 
 /// Widest filter that a node's option can ask for: time grows with its square.
@@ -43,15 +41,15 @@ fn inputs(node: &Node, space: &SpaceSpec) -> Result<Vec<Vec<f64>>, Failure> {
 }
 
 /// The filter of the first shadow on that light, from what its options named `size`, `width`, `weights` and `taps` say,
-/// and the command line.
-pub(super) fn filter(woven: &Woven, command: &Render, context: &Context) -> Result<Filter, Failure> {
+/// unless something else is wanted.
+pub(super) fn filter(woven: &Woven, asked: &Wanted, listener: &dyn Listener) -> Result<Filter, Failure> {
     let (light, shadows) = wanted(woven)?;
     let Some(shadow) = shadows.first() else {
         let message = format!("the light `{}` has no shadow whose filter could be judged", light.id);
         return Err(no_truth(message, "link a shadow behind it, or use --reference rays", light.place()));
     };
     if shadows.len() > 1 {
-        context.say(&format!("`{}` has {} shadows; the filter is that of `{}`", light.id, shadows.len(), shadow.id));
+        listener.note(&format!("`{}` has {} shadows; the filter is that of `{}`", light.id, shadows.len(), shadow.id));
     }
     let choices = &shadow.definition.choices;
     let option = |name: &str| choices.iter().find(|(n, _)| n == name).map(|(_, choice)| choice.as_str());
@@ -63,7 +61,7 @@ pub(super) fn filter(woven: &Woven, command: &Render, context: &Context) -> Resu
             Err(no_truth(message, "give the width with --kernel", shadow.place()))
         }
     };
-    let width = match command.kernel {
+    let width = match asked.kernel {
         Some(width) => width,
         None => number("width", 1)?.clamp(1, MOST_WIDE),
     };
@@ -84,7 +82,7 @@ pub(super) fn filter(woven: &Woven, command: &Render, context: &Context) -> Resu
         kernel: kernel(weights.map_or(Weights::Box, |w| w.1), width as usize),
         taps,
         size: number("size", 1024)?.max(1),
-        factor: command.reference_samples.unwrap_or(FACTOR),
+        factor: asked.samples.unwrap_or(FACTOR),
     })
 }
 
@@ -114,6 +112,6 @@ fn wanted(woven: &Woven) -> Result<(&Node, Vec<&Node>), Failure> {
         Root::Visibility { light, shadows } => {
             Ok((&woven.nodes[*light], shadows.iter().map(|s| &woven.nodes[*s]).collect()))
         }
-        _ => Err(Vec::new().into()),
+        _ => Err(Failure::told()),
     }
 }
