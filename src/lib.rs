@@ -23,6 +23,8 @@ pub mod render;
 pub mod studio;
 #[cfg(feature = "render")]
 pub mod preview;
+#[cfg(feature = "gui")]
+mod gui;
 pub mod explain;
 pub mod report;
 pub mod cli;

@@ -24,7 +24,7 @@ const ALLOWED: &[(&str, &[&str])] = &[
     ("explain", &["ron", "graph", "node", "scene"]),
     ("scene", &["diagnostic", "semantic", "ron"]),
     ("reference", &["scene"]),
-    ("view", &["hash", "diagnostic", "semantic", "graph", "node", "weave"]),
+    ("view", &["hash", "diagnostic", "semantic", "graph", "node", "weave", "compile"]),
     ("render", &["semantic", "module", "plan", "scene", "compile"]),
     (
         "studio",
@@ -41,9 +41,29 @@ const ALLOWED: &[(&str, &[&str])] = &[
             "scene",
             "reference",
             "render",
+            "view",
         ],
     ),
     ("preview", &["diagnostic", "node", "compile", "scene", "reference", "render", "studio"]),
+    (
+        "gui",
+        &[
+            "diagnostic",
+            "semantic",
+            "graph",
+            "node",
+            "compile",
+            "verify",
+            "export",
+            "explain",
+            "report",
+            "scene",
+            "render",
+            "view",
+            "studio",
+            "preview",
+        ],
+    ),
 ];
 
 fn sources(folder: &Path, files: &mut Vec<PathBuf>) {

@@ -9,6 +9,7 @@ mod compare;
 mod completions;
 mod context;
 mod doctor;
+mod edit;
 mod exit;
 mod explain;
 mod fmt;
@@ -67,6 +68,7 @@ struct Cli {
 
 #[derive(Debug, Subcommand)]
 enum Command {
+    Edit(edit::Edit),
     Generate(generate::Generate),
     Check(check::Check),
     Render(render::Render),
@@ -83,6 +85,7 @@ enum Command {
 impl Command {
     fn run(&self, context: &Context) -> Outcome {
         match self {
+            Self::Edit(c) => c.run(context),
             Self::Generate(c) => c.run(context),
             Self::Check(c) => c.run(context),
             Self::Render(c) => c.run(context),

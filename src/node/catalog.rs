@@ -264,6 +264,7 @@ fn score(kind: &str, header: &Header, word: &str) -> Option<usize> {
     let synonyms = || header.synonyms.iter().map(|s| s.to_lowercase());
     let tests = [
         kind == word || label == word,
+        label.split_whitespace().any(|w| w == word),
         synonyms().any(|s| s == word),
         kind.starts_with(word) || label.starts_with(word),
         kind.contains(word) || label.contains(word),

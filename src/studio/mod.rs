@@ -21,6 +21,7 @@ pub mod truth;
 mod truth_light;
 pub mod weave;
 pub mod wiring;
+pub mod write;
 
 pub use failure::{Collected, Failure, FailureKind, Listener};
 pub use focus::Focus;
@@ -28,3 +29,4 @@ pub use load::Loader;
 pub use shot::{Shot, Subject};
 pub use stage::Shown;
 pub use wiring::Resolved;
+pub use write::write;

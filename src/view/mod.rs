@@ -3,6 +3,7 @@
 
 pub mod commands;
 mod document;
+pub mod figure;
 mod fit;
 mod history;
 pub mod layout;
@@ -12,4 +13,8 @@ pub mod ports;
 #[cfg(test)]
 mod tests;
 
+pub use commands::*;
 pub use document::Document;
+pub use layout::{arrange, placed};
+pub use palette::{Fit, Hit, find, fit_of};
+pub use ports::{NodeView, PortView, node_view};

@@ -8,6 +8,7 @@ mod connect;
 mod delete;
 mod kinds;
 mod names;
+mod replace;
 mod subgraph;
 
 pub use add::{Insert, add, add_linked, insert_on_link};
@@ -16,6 +17,7 @@ pub use clipboard::{copy, duplicate, paste};
 pub use connect::{connect, pin};
 pub use delete::delete;
 pub use kinds::{change_kind, compatible_kinds, swap_kind};
+pub use replace::replace;
 pub use names::free_name;
 pub use subgraph::{expose, expose_option, expose_output, make_subgraph, unexpose};
 

@@ -1,0 +1,375 @@
+//! The real editor, driven by what assistive tools are told of it.
+
+use std::path::{Path, PathBuf};
+use std::time::{Duration, Instant};
+
+use eframe::egui::{Event, Key, Modifiers, PointerButton, Pos2, Vec2, vec2};
+use egui_kittest::kittest::Queryable;
+use egui_kittest::{Harness, Node};
+
+use super::{Editor, Options, Places};
+use crate::node::Catalog;
+use crate::render::{AdapterChoice, AdapterOptions};
+
+/// An editor in a window of its own, without a screen.
+struct Bench {
+    harness: Harness<'static, Editor>,
+    folder: tempfile::TempDir,
+}
+
+impl Bench {
+    fn new(files: &[&str]) -> Self {
+        Self::within(tempfile::tempdir().expect("a folder"), files)
+    }
+
+    fn within(folder: tempfile::TempDir, files: &[&str]) -> Self {
+        let places = Places::within(folder.path());
+        let files: Vec<PathBuf> = files.iter().map(|f| Path::new(env!("CARGO_MANIFEST_DIR")).join("graphs").join(f)).map(|from| {
+            let to = folder.path().join(from.file_name().expect("a file"));
+            std::fs::copy(&from, &to).expect("an example");
+            to
+        }).collect();
+        let adapter = AdapterOptions { choice: AdapterChoice::Cpu, backends: None };
+        let options = Options { files, scene: None, nodes: Vec::new(), catalog: Catalog::embedded(), adapter, places: Some(places) };
+        let harness = Harness::builder().with_size(vec2(1280.0, 800.0)).with_max_steps(30).build_eframe(move |cc| {
+            let mut editor = Editor::new(&cc.egui_ctx, options);
+            editor.settings.welcomed = true;
+            if matches!(editor.dialog, Some(super::dialogs::Dialog::Welcome)) {
+                editor.dialog = None;
+            }
+            editor
+        });
+        let mut bench = Self { harness, folder };
+        bench.steps(4);
+        bench
+    }
+
+    fn steps(&mut self, count: usize) {
+        self.harness.run_steps(count);
+    }
+
+    /// Steps until something holds.
+    fn until(&mut self, what: &str, done: impl Fn(&Editor) -> bool) {
+        let start = Instant::now();
+        while !done(self.harness.state()) {
+            assert!(start.elapsed() < Duration::from_secs(60), "waited in vain for {what}");
+            std::thread::sleep(Duration::from_millis(10));
+            self.steps(1);
+        }
+    }
+
+    fn key(&mut self, modifiers: Modifiers, key: Key) {
+        self.harness.key_press_modifiers(modifiers, key);
+        self.steps(3);
+    }
+
+    fn text(&mut self, text: &str) {
+        self.harness.event(Event::Text(text.to_owned()));
+        self.steps(3);
+    }
+
+    /// Picks the first of what a list offers for some words.
+    fn pick(&mut self, words: &str) {
+        self.steps(2);
+        self.text(words);
+        self.key(Modifiers::NONE, Key::Enter);
+        self.steps(2);
+    }
+
+    fn place(&self, label: &str) -> Pos2 {
+        self.harness.get_by_label(label).rect().center()
+    }
+
+    fn click(&mut self, at: Pos2) {
+        self.press(at, true);
+        self.press(at, false);
+        self.steps(2);
+    }
+
+    fn press(&mut self, pos: Pos2, pressed: bool) {
+        self.harness.event(Event::PointerMoved(pos));
+        self.harness.event(Event::PointerButton { pos, button: PointerButton::Primary, pressed, modifiers: Modifiers::NONE });
+        self.steps(1);
+    }
+
+    fn drag(&mut self, from: Pos2, to: Pos2) {
+        self.press(from, true);
+        for i in 1..=6_u8 {
+            let p = from + (to - from) * f32::from(i) / 6.0;
+            self.harness.event(Event::PointerMoved(p));
+            self.steps(1);
+        }
+        self.press(to, false);
+        self.steps(2);
+    }
+
+    fn document(&self) -> String {
+        self.harness.state().document().expect("a document").text()
+    }
+
+    fn kind_of(&self, node: &str) -> String {
+        let graph = self.harness.state().document().expect("a document").graph();
+        graph.nodes.get(node).unwrap_or_else(|| panic!("no node {node} among {:?}", graph.nodes.keys())).kind.clone()
+    }
+
+    fn node_of_kind(&self, kind: &str) -> String {
+        let graph = self.harness.state().document().expect("a document").graph();
+        let found = graph.nodes.iter().find(|(_, n)| n.kind == kind).map(|(name, _)| name.clone());
+        found.unwrap_or_else(|| panic!("no {kind} among {:?}", graph.nodes.values().map(|n| &n.kind).collect::<Vec<_>>()))
+    }
+
+    fn picture(&mut self) -> Vec<u8> {
+        self.until("a picture of what is there now", |e| e.feed.is_settled(&e.preview));
+        self.harness.state().preview.image.as_ref().expect("a picture").rgba.clone()
+    }
+
+    fn canvas(&self, x: f32, y: f32) -> Pos2 {
+        let rect = self.harness.state().canvas;
+        rect.min + Vec2::new(x, y)
+    }
+}
+
+const CTRL: Modifiers = Modifiers::COMMAND;
+const CTRL_SHIFT: Modifiers = Modifiers { shift: true, ..Modifiers::COMMAND };
+
+/// The names by which a link's ends are told.
+fn output_of(node: &str) -> String {
+    format!("{node} / output (whole node)")
+}
+
+#[test]
+fn a_glass_under_a_shadowed_lamp_is_built_from_nothing_and_taken_back() {
+    let mut bench = Bench::new(&[]);
+    let empty = bench.document();
+    let hole = bench.canvas(60.0, 60.0);
+    bench.harness.hover_at(hole);
+    bench.steps(1);
+    bench.key(Modifiers::SHIFT, Key::A);
+    bench.pick("spot light");
+    let spot = bench.node_of_kind("spot_light");
+    // A wire into the open offers what can take it.
+    let (from, to) = (bench.place(&output_of(&spot)), bench.canvas(420.0, 60.0));
+    bench.drag(from, to);
+    bench.pick("variance shadow");
+    let shadow = bench.node_of_kind("variance_shadow");
+    let (from, to) = (bench.place(&output_of(&shadow)), bench.canvas(420.0, 330.0));
+    bench.drag(from, to);
+    bench.pick("glass");
+    let glass = bench.node_of_kind("glass");
+    let links: Vec<String> = bench.harness.state().document().expect("a document").graph().links.iter().map(ToString::to_string).collect();
+    assert_eq!(links, [format!("{shadow} -> {glass}"), format!("{spot} -> {shadow}")]);
+    let picture = bench.picture();
+    assert!(bench.harness.state().feed.found.is_empty(), "{:?}", bench.harness.state().feed.found);
+
+    // Another shadow in its place keeps the links, and shows.
+    let at = bench.place(&format!("Node {shadow}, shadow"));
+    bench.click(at);
+    bench.key(Modifiers::SHIFT, Key::S);
+    bench.pick("hard shadow");
+    assert_eq!(bench.kind_of(&shadow), "hard_shadow");
+    assert_ne!(bench.picture(), picture, "another shadow looks otherwise");
+    let built = bench.document();
+
+    while bench.harness.state().document().expect("a document").undo_label().is_some() {
+        bench.key(CTRL, Key::Z);
+    }
+    assert_eq!(bench.document(), empty);
+    while bench.harness.state().document().expect("a document").redo_label().is_some() {
+        bench.key(CTRL_SHIFT, Key::Z);
+    }
+    assert_eq!(bench.document(), built);
+
+    // Saved, and opened again: the same bytes.
+    let path = bench.folder.path().join("mine.ron");
+    bench.key(CTRL, Key::S);
+    bench.key(CTRL, Key::A);
+    bench.text(&path.display().to_string());
+    bench.key(Modifiers::NONE, Key::Enter);
+    bench.steps(3);
+    assert_eq!(std::fs::read_to_string(&path).expect("saved"), built);
+    assert!(!bench.harness.state().document().expect("a document").is_changed());
+    bench.key(CTRL, Key::W);
+    bench.key(CTRL, Key::O);
+    bench.key(CTRL, Key::A);
+    bench.text(&path.display().to_string());
+    bench.key(Modifiers::NONE, Key::Enter);
+    bench.steps(3);
+    assert_eq!(bench.document(), built);
+}
+
+#[test]
+fn a_value_changes_the_picture_and_builds_no_pipeline() {
+    let mut bench = Bench::new(&["surfaces/lambert.ron"]);
+    let before = bench.picture();
+    let built = bench.harness.state().preview.image.as_ref().expect("a picture").pipelines_built;
+    let editor = bench.harness.state_mut();
+    let node = editor.document().expect("a document").graph().nodes.keys().next().expect("a node").clone();
+    let value = Some(crate::semantic::Value::Numbers(vec![0.9, 0.1, 0.1]));
+    assert!(editor.change("Set", crate::graph::Edit::SetParam { node, param: "albedo".into(), value }));
+    bench.steps(2);
+    assert_ne!(bench.picture(), before);
+    assert_eq!(bench.harness.state().preview.image.as_ref().expect("a picture").pipelines_built, built);
+}
+
+#[test]
+fn copies_paste_as_text_and_deleting_heals() {
+    let mut bench = Bench::new(&["surfaces/marble.ron"]);
+    let before = bench.document();
+    let count = |b: &Bench| b.harness.state().document().expect("a document").graph().nodes.len();
+    let nodes = count(&bench);
+    bench.key(CTRL, Key::A);
+    bench.harness.event(Event::Copy);
+    bench.steps(2);
+    let text = bench.harness.state().clipboard.clone();
+    assert!(text.starts_with("Graph("), "{text}");
+    bench.harness.event(Event::Paste(text));
+    bench.steps(2);
+    assert_eq!(count(&bench), 2 * nodes);
+    bench.key(Modifiers::NONE, Key::Delete);
+    assert_eq!(count(&bench), nodes, "what was pasted was selected");
+    bench.harness.event(Event::Paste("no graph".into()));
+    bench.steps(2);
+    assert_eq!(count(&bench), nodes);
+    bench.key(CTRL, Key::Z);
+    bench.key(CTRL, Key::Z);
+    assert_eq!(bench.document(), before);
+}
+
+#[test]
+fn muting_renaming_and_collapsing_are_in_the_document() {
+    let mut bench = Bench::new(&["surfaces/marble.ron"]);
+    let before = bench.document();
+    let node = bench.harness.state().document().expect("a document").graph().nodes.keys().next().expect("a node").clone();
+    bench.harness.state_mut().go_to(&node);
+    bench.steps(2);
+    bench.key(Modifiers::NONE, Key::M);
+    bench.key(Modifiers::NONE, Key::H);
+    let graph = bench.harness.state().document().expect("a document").graph().clone();
+    assert!(graph.nodes[&node].muted && graph.collapsed.contains(&node));
+    bench.key(Modifiers::NONE, Key::F2);
+    bench.key(CTRL, Key::A);
+    bench.text("renamed");
+    bench.key(Modifiers::NONE, Key::Enter);
+    bench.steps(2);
+    assert!(bench.harness.state().document().expect("a document").graph().nodes.contains_key("renamed"));
+    for _ in 0..3 {
+        bench.key(CTRL, Key::Z);
+    }
+    assert_eq!(bench.document(), before);
+}
+
+#[test]
+fn nodes_become_a_file_of_their_own_and_it_opens() {
+    let mut bench = Bench::new(&["surfaces/marble.ron"]);
+    let picture = bench.picture();
+    let graph = bench.harness.state().document().expect("a document").graph().clone();
+    let output = graph.nodes.keys().find(|n| !graph.links.iter().any(|l| l.from.node == **n)).expect("an end").clone();
+    bench.key(CTRL, Key::A);
+    let editor = bench.harness.state_mut();
+    editor.tab_mut().expect("a tab").selection.remove(&output);
+    bench.key(CTRL_SHIFT, Key::G);
+    bench.key(CTRL, Key::A);
+    let path = bench.folder.path().join("part.ron");
+    bench.text(&path.display().to_string());
+    bench.key(Modifiers::NONE, Key::Enter);
+    bench.steps(3);
+    assert!(path.exists());
+    assert_eq!(bench.harness.state().document().expect("a document").graph().nodes.len(), 2);
+    let part = bench.picture();
+    assert!(bench.harness.state().feed.found.is_empty(), "{:?}", bench.harness.state().feed.found);
+    assert_eq!(part, picture, "a file of its own changes no pixel");
+    bench.key(Modifiers::NONE, Key::Enter);
+    bench.steps(3);
+    assert_eq!(bench.harness.state().tab().expect("a tab").path.as_deref(), Some(path.as_path()));
+    bench.key(Modifiers::ALT, Key::ArrowUp);
+    assert!(bench.harness.state().tab().expect("a tab").path.as_deref().is_some_and(|p| p.ends_with("marble.ron")));
+}
+
+#[test]
+fn a_crash_loses_nothing() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let root = folder.path().to_path_buf();
+    let mut bench = Bench::within(folder, &["surfaces/lambert.ron"]);
+    bench.key(CTRL, Key::A);
+    bench.key(CTRL, Key::D);
+    let text = bench.document();
+    bench.harness.state_mut().keep_unsaved();
+    // As if the process had been killed: nothing is tidied up, and the lock goes with it.
+    let Bench { harness, folder } = bench;
+    let saved = std::fs::read_to_string(root.join("lambert.ron")).expect("the file");
+    drop(harness);
+    let mut bench = Bench::within(folder, &[]);
+    bench.harness.get_by_label("Open them").click();
+    bench.steps(4);
+    assert_eq!(bench.document(), text);
+    assert!(bench.harness.state().document().expect("a document").is_changed());
+    assert_eq!(std::fs::read_to_string(root.join("lambert.ron")).expect("the file"), saved, "the file is not touched");
+}
+
+#[test]
+fn a_file_that_others_change_is_noticed() {
+    let mut bench = Bench::new(&["surfaces/lambert.ron"]);
+    let path = bench.folder.path().join("lambert.ron");
+    let theirs = std::fs::read_to_string(&path).expect("the file").replace("Graph(", "Graph( ");
+    std::fs::write(&path, theirs.replace("lambert", "oren_nayar")).expect("written");
+    bench.harness.state_mut().notice_changes();
+    bench.steps(2);
+    bench.node_of_kind("oren_nayar");
+    // Where both changed, both stay.
+    bench.key(CTRL, Key::A);
+    bench.key(CTRL, Key::D);
+    let mine = bench.document();
+    std::fs::write(&path, theirs).expect("written");
+    bench.harness.state_mut().notice_changes();
+    bench.steps(2);
+    bench.harness.get_by_label("Take theirs").click();
+    bench.steps(3);
+    bench.node_of_kind("lambert");
+    let texts: Vec<usize> = bench.harness.state().tabs.iter().map(|t| t.graph().nodes.len()).collect();
+    assert!(texts.len() == 2 && mine.matches("kind:").count() == texts[1].max(texts[0]), "{texts:?}");
+}
+
+#[test]
+fn what_is_not_known_is_shown_and_kept() {
+    let mut bench = Bench::new(&[]);
+    let path = bench.folder.path().join("odd.ron");
+    let text = "Graph(\n    version: 1,\n    nodes: {\n        \"a\": (kind: \"no_such_kind\", params: {\"x\": 3}),\n        \"b\": (kind: \"lambert\"),\n    },\n    links: [\n        \"a.y -> b.albedo\",\n    ],\n    future: (1, 2),\n)\n";
+    std::fs::write(&path, text).expect("written");
+    bench.harness.state_mut().open(&path);
+    bench.steps(4);
+    bench.harness.get_by_label_contains("Node a");
+    assert_eq!(bench.document(), text);
+    bench.until("problems", |e| !e.feed.found.is_empty());
+    bench.harness.state_mut().show_problems();
+    bench.steps(2);
+    bench.harness.get_by_label_contains("Problems (");
+}
+
+/// Every command that needs no more than a selection, by its key.
+#[test]
+fn no_key_breaks_anything() {
+    use super::command::Command;
+    for command in Command::ALL {
+        if matches!(command, Command::Quit) {
+            continue;
+        }
+        let Some(key) = command.keys().first() else { continue };
+        let mut bench = Bench::new(&["lights/spot_vsm.ron"]);
+        bench.key(CTRL, Key::A);
+        bench.key(key.modifiers, key.logical_key);
+        bench.steps(2);
+        bench.key(Modifiers::NONE, Key::Escape);
+        bench.key(CTRL, Key::Z);
+        bench.steps(1);
+    }
+}
+
+/// Found by name, whatever it is.
+#[allow(dead_code, reason = "for looking at failures")]
+fn all_labels(node: &Node<'_>, out: &mut Vec<String>) {
+    use egui_kittest::kittest::NodeT;
+    out.extend(node.accesskit_node().label());
+    for child in node.children() {
+        all_labels(&child, out);
+    }
+}
