@@ -12,10 +12,11 @@ use super::exit::{Exit, Failure, Outcome};
 use super::output;
 use super::picture::{late, unwritable};
 use super::render::adapter_options;
+use crate::diagnostic::{Diagnostic, Place};
 use crate::node::Catalog;
 use crate::render::image_file::{Display, ToneCurve, encode_png};
 use crate::render::{Frame, Gpu};
-use crate::studio::load::Loader;
+use crate::studio::load::{Document, Loader};
 use crate::studio::measure::{Comparison, Point, error_map, measure, shadow_kinds, shadow_of};
 use crate::studio::truth::Reference;
 use crate::studio::weave::{Known, Weaver};
@@ -37,13 +38,20 @@ pub(super) fn run(command: &Compare, context: &Context) -> Outcome {
     let loader = Loader::default();
     let (catalog, found) = loader.catalog(&command.nodes)?;
     context.report(&found);
-    let kinds = kinds(command, &catalog)?;
+    // Graphs on the stage are for those who look at them while they edit.
+    if !matches!(loader.document(&command.scene)?, Some(Document::Scene(_))) {
+        let message = format!("`{}` is not a scene that can be used", command.scene.display());
+        let error = Diagnostic::error("ST0521", message, Place::default());
+        return Err(vec![error.help("see `shadetree check`")].into());
+    }
+    loader.take_found();
     let files = [command.scene.clone()];
     let subject = Subject { files: &files, scene: None, shape: &Shown::Sphere };
     let quiet = Context { quiet: true, ..*context };
     let known = Known::default();
     let weaver = Weaver { set: &command.set, ..Weaver::new(&quiet, &loader, &catalog, &known) };
     let shadow = shadow_of(&subject, &command.light, &weaver)?;
+    let kinds = kinds(command, &catalog)?;
     let comparison = Comparison {
         light: &command.light,
         shadow: &shadow,

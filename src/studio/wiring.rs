@@ -3,7 +3,7 @@
 use std::collections::BTreeSet;
 
 use crate::compile::NamedGraph;
-use crate::semantic::Chain;
+use crate::semantic::{Chain, Step};
 use crate::weave::{Node, Wire, Woven};
 
 /// One resolved wire.
@@ -30,35 +30,36 @@ pub fn wiring(woven: &Woven, graphs: &[NamedGraph]) -> Vec<Resolved> {
     let first_output = |node: usize| woven.nodes[node].definition.main.outputs.first().map(|o| o.name.clone());
     let mut found = BTreeSet::new();
     for (index, node) in woven.nodes.iter().enumerate() {
-        let mut add = |from: usize, output: &str, port: &str, chain: Option<&Chain>| {
+        let mut add = |from: usize, output: &str, port: &str, conversions: &[String], cost: u32| {
             let ((from_graph, from), (graph, to)) = (names[from].clone(), names[index].clone());
-            let steps = chain.map(|c| c.steps.as_slice()).unwrap_or_default();
-            let words = steps.iter().map(|s| match s.label {
-                "" => format!("taken as {}", s.to),
-                label => format!("{label}: {}", s.to),
-            });
             found.insert(Resolved {
                 graph,
                 from_graph,
                 from: (from, output.to_owned()),
                 to: (to, port.to_owned()),
-                conversions: words.collect(),
-                cost: chain.map_or(0, |c| c.cost),
+                conversions: conversions.to_vec(),
+                cost,
             });
         };
         for (port, wire) in node.inputs.iter() {
             match wire {
-                Wire::Output { node: from, output, chain } => add(*from, output, port, Some(chain)),
+                Wire::Output { node: from, output, chain } => add(*from, output, port, &words(chain), chain.cost),
                 Wire::Light { output, chain } => {
-                    node.lights.keys().for_each(|light| add(*light, output, port, Some(chain)));
+                    node.lights.keys().for_each(|light| add(*light, output, port, &words(chain), chain.cost));
                 }
                 Wire::Irradiance => {
                     for (light, shadows) in &node.lights {
                         // Light that passes a shadow arrives from there.
                         let before = if shadows.is_empty() { vec![*light] } else { last(woven, shadows) };
                         for from in before {
-                            add(from, &first_output(from).unwrap_or_default(), port, None);
+                            add(from, &first_output(from).unwrap_or_default(), port, &[], 0);
                         }
+                    }
+                }
+                Wire::Space | Wire::Map => {
+                    let word = if matches!(wire, Wire::Map) { "map of the light" } else { "space of the light" };
+                    for light in node.lights.keys() {
+                        add(*light, &first_output(*light).unwrap_or_default(), port, &[word.to_owned()], 0);
                     }
                 }
                 _ => {}
@@ -66,6 +67,15 @@ pub fn wiring(woven: &Woven, graphs: &[NamedGraph]) -> Vec<Resolved> {
         }
     }
     found.into_iter().collect()
+}
+
+/// What the steps of a chain do, a few words each.
+fn words(chain: &Chain) -> Vec<String> {
+    let step = |s: &Step| match s.label {
+        "" => format!("taken as {}", s.to),
+        label => format!("{label}: {}", s.to),
+    };
+    chain.steps.iter().map(step).collect()
 }
 
 /// Of the shadows on a light's way, those that no other of them lies behind.
