@@ -65,7 +65,11 @@ const WEAVE: &[(&str, &str, &str)] = &[
         "A light meets no surface that takes light.",
         "Add a surface, or link the light to the one that it is to shine on.",
     ),
-    ("ST0211", "A shadow is on no light.", "A shadow stands behind a light: `\"spot -> shadow\"`."),
+    (
+        "ST0211",
+        "A shadow, or another node that asks for a light's space, is on no light.",
+        "A shadow stands behind a light: `\"spot -> shadow\"`.",
+    ),
     (
         "ST0212",
         "Two links lead to one input.",

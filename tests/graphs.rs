@@ -39,6 +39,13 @@ fn examples_give_the_expected_wgsl() {
     let name = "tests/golden/woven/spot_vsm+bumpy_glass.wgsl";
     expect_file(name, compiled(&pair, &Options::default()).module.wgsl.as_bytes());
     known.push(name.to_owned());
+    // Lights, shadows and surfaces where others take them as values.
+    for path in files("tests/golden/woven", "ron") {
+        let module = compiled(&[graph_file(&path)], &Options::default()).module;
+        let name = path.with_extension("wgsl").display().to_string();
+        expect_file(&name, module.wgsl.as_bytes());
+        known.push(name);
+    }
     no_strays("tests/golden", "wgsl", &known);
     let texts: Vec<(String, String)> = known.iter().map(|n| (n.clone(), text(n.as_ref()).text.clone())).collect();
     if let Some(complaints) = tint::complaints(texts.iter().map(|(n, t)| (n.as_str(), t.as_str()))) {

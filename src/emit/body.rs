@@ -148,23 +148,29 @@ impl Printer<'_> {
     /// What to write for an expression that is a word without parts.
     fn leaf<'e>(&'e self, expression: &'e Expression) -> Option<&'e str> {
         match &expression.op {
-            Op::Parameter(index) => Some(self.reads.get(*index).and_then(Option::as_deref).unwrap_or_default()),
+            Op::Parameter(index) => Some(self.reads[*index].as_deref().expect("what is reached is in the block")),
             Op::Literal(text) => Some(text),
-            Op::Resource(resource) => Some(self.variables.get(resource).map_or("", String::as_str)),
+            Op::Resource(resource) => Some(self.variables.get(resource).expect("what is reached is bound")),
             _ => None,
         }
     }
 
     /// What to write where an expression is used.
     fn used(&self, id: Id) -> &str {
-        self.leaf(self.program.get(id)).unwrap_or_else(|| self.printed[id.0 as usize].as_str())
+        self.leaf(self.program.get(id)).unwrap_or_else(|| self.printed(id).as_str())
     }
 
     fn append(&self, out: &mut Text, id: Id) {
         match self.leaf(self.program.get(id)) {
             Some(leaf) => out.push(leaf),
-            None => out.append(&self.printed[id.0 as usize]),
+            None => out.append(self.printed(id)),
         }
+    }
+
+    fn printed(&self, id: Id) -> &Text {
+        let printed = &self.printed[id.0 as usize];
+        assert!(printed.len() > 0, "operands come before what uses them");
+        printed
     }
 
     fn print(&self, expression: &Expression, out: &mut Text) {
@@ -175,7 +181,7 @@ impl Printer<'_> {
                     match part {
                         Part::Plain(plain) => out.push(plain),
                         Part::Slot(i, alone) => {
-                            let Some(&operand) = operands.get(i) else { continue };
+                            let operand = operands[i];
                             if alone || is_atomic(self.used(operand)) {
                                 self.append(out, operand);
                             } else {
@@ -203,7 +209,7 @@ impl Printer<'_> {
     }
 
     fn print_call(&self, function: usize, expression: &Expression, out: &mut Text) {
-        let called = self.functions.names.get(&function).map_or("", String::as_str);
+        let called = self.functions.names.get(&function).expect("what is reached is declared");
         word(out, called, "(");
         let operands = &expression.operands;
         let ports = self.ports.get(&function);

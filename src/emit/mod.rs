@@ -98,7 +98,7 @@ fn reach(program: &Program, root: Id) -> Reached {
 
 /// The module and plan of a program. Diagnostics are about node and pass files only.
 pub fn emit(program: &Program, catalog: &Catalog, title: &str) -> (Module, Plan, Vec<Diagnostic>) {
-    let Some(root) = program.root else { return (Module::default(), Plan::default(), Vec::new()) };
+    let root = program.root.expect("a program that was built has a root");
     let reached = reach(program, root);
     let (plan, maps, diagnostics) = plan_of(program, &reached, catalog);
     let mut names = Names::default();

@@ -1,13 +1,16 @@
 //! Sharing out the lines of a long fragment stage over several functions.
 //!
 //! Compilers take a time that grows with the square of a function's length (naga's front end does), so a stage of more
-//! than [`LONGEST`] lines is written as parts that are called in order. What a later part reads is a private variable.
+//! than [`LONGEST`] lines is written as parts of at most [`PART`] lines that are called in order. What a later part reads
+//! is a private variable.
 
 use super::Reached;
 use crate::program::{Id, Op, Program};
 
-/// The most lines in one function.
+/// The most lines that stay together in one function.
 const LONGEST: usize = 128;
+/// The most lines of a part, where there are more.
+const PART: usize = 64;
 
 /// Which function each line stands in, and which lines others read.
 pub(crate) struct Division {
@@ -32,7 +35,7 @@ pub(crate) fn divide(program: &Program, reached: &Reached, root: Id) -> Option<D
     if lines.len() <= LONGEST {
         return None;
     }
-    let parts = lines.len().div_ceil(LONGEST);
+    let parts = lines.len().div_ceil(PART);
     let each = lines.len().div_ceil(parts);
     let mut part = vec![parts; program.expressions.len()];
     for (index, id) in lines.iter().enumerate() {

@@ -1,9 +1,9 @@
 //! From resolved wiring to expressions, node by node in evaluation order.
 
-use super::evaluate::{Context, Worth, takes_surfaces};
+use super::evaluate::{Context, Worth, combines, is_seen, takes_surfaces};
 use super::{Bake, Id, NodeInfo, Op, Program, Varying};
-use crate::node::Definition;
-use crate::semantic::Quantity;
+use crate::node::{Default, Definition, Port};
+use crate::semantic::{Shape, Value};
 use crate::weave::{Root, Wire, Woven, is_light, is_lit, is_shadow, is_surface};
 
 use std::collections::{BTreeMap, BTreeSet};
@@ -35,7 +35,7 @@ pub fn build(woven: &Woven, bake: Bake, unshadowed: bool) -> Program {
         let value = evaluate(&mut program, woven, &worth, index);
         worth.push(value);
     }
-    program.root = root(&mut program, woven, &worth);
+    program.root = Some(root(&mut program, woven, &worth));
     program
 }
 
@@ -49,86 +49,110 @@ fn evaluate(program: &mut Program, woven: &Woven, worth: &[Worth], index: usize)
         result.plain = program.call(&at(None), false);
         return result;
     }
-    if program.unshadowed && is_shadow(definition) {
-        let scalar = definition.main.outputs[0].ty.shape.width() == Some(1);
-        let one = program.add(Op::Literal(if scalar { "1.0" } else { "vec3f(1.0)" }.into()), Vec::new(), "lit", None);
-        result.lit.extend(node.lights.keys().map(|light| (*light, vec![one])));
-        return result;
+    let (shadow, surface) = (is_shadow(definition), is_surface(definition));
+    let of_a_light = |wire: &Wire| matches!(wire, Wire::Light { .. } | Wire::Irradiance | Wire::Space | Wire::Map);
+    let lit = is_lit(definition) || (!shadow && node.inputs.values().any(of_a_light));
+    let on_lights = shadow && !node.lights.is_empty();
+    let fed = Fed::of(woven, worth, index);
+    // Whether it has another value under each light, and not only because what it combines has.
+    let depends = lit || on_lights || (!fed.values.is_empty() && !(surface && takes_surfaces(definition)));
+    let mut lights = fed.surfaces;
+    if depends {
+        lights.extend(node.lights.keys());
+        lights.extend(fed.values);
     }
-    let mut lights: BTreeSet<usize> = node.lights.keys().copied().collect();
-    let mut lit_inputs = false;
-    for wire in node.inputs.values() {
-        if let Wire::Output { node: from, .. } = wire {
-            lights.extend(worth[*from].lit.keys());
-            lit_inputs |= !worth[*from].lit.is_empty() && !is_surface(&woven.nodes[*from].definition);
-        }
-    }
-    let depends = is_lit(definition) || (is_shadow(definition) && !node.lights.is_empty()) || lit_inputs;
-    let combines = takes_surfaces(definition);
     for light in lights {
-        let base_is_lit = || {
-            node.inputs
-                .values()
-                .any(|w| matches!(w, Wire::Output { node, .. } if worth[*node].lit.contains_key(&light)))
-        };
-        if (depends || (combines && base_is_lit()))
-            && let Some(mut outputs) = program.call(&at(Some(light)), false)
+        if program.unshadowed && on_lights && definition.main.outputs.len() == 1 {
+            let one = program.unit(definition);
+            result.lit.insert(light, vec![one]);
+            continue;
+        }
+        let Some(mut outputs) = program.call(&at(Some(light)), false) else { continue };
+        if program.unshadowed && shadow {
+            outputs[0] = program.unit(definition);
+        } else if shadow
+            && let Some((view, share)) = program.next_view_of_light(light, Some(index))
+            && let Some(next) = program.call(&Context { view: Some(view), ..at(Some(light)) }, false)
         {
-            if is_shadow(definition)
-                && let Some((view, share)) = program.next_view_of_light(light, Some(index))
-                && let Some(next) = program.call(&Context { view: Some(view), ..at(Some(light)) }, false)
-            {
-                let mixed = |(here, there): (&Id, &Id)| program.mix(*here, *there, share);
-                outputs = outputs.iter().zip(&next).map(mixed).collect();
-            }
-            result.lit.insert(light, outputs);
+            let mixed = |(here, there): (&Id, &Id)| program.mix(*here, *there, share);
+            outputs = outputs.iter().zip(&next).map(mixed).collect();
+        }
+        result.lit.insert(light, outputs);
+    }
+    if definition.ambient.is_some() {
+        result.plain = program.call(&at(None), true);
+    } else if surface {
+        if !depends && (fed.always || !takes_surfaces(definition)) {
+            result.plain = program.call(&at(None), false);
+        }
+    } else if !lit && !on_lights {
+        result.plain = program.call(&at(None), false);
+        if program.unshadowed
+            && shadow
+            && let Some(outputs) = &mut result.plain
+        {
+            outputs[0] = program.unit(definition);
         }
     }
-    let ambient_base = || {
-        node.inputs.iter().any(|(name, w)| {
-            let radiance = definition.input(name).is_some_and(|p| p.ty.meaning.quantity == Quantity::Radiance);
-            radiance && matches!(w, Wire::Output { node, .. } if worth[*node].plain.is_some())
-        })
-    };
-    result.plain = if definition.ambient.is_some() {
-        program.call(&at(None), true)
-    } else if !depends && (!combines || ambient_base()) {
-        program.call(&at(None), false)
-    } else {
-        None
-    };
     result
 }
 
+/// What feeds a node that is not the same under every light.
+struct Fed {
+    /// Lights under which a surface that it combines is seen.
+    surfaces: BTreeSet<usize>,
+    /// Lights under which a value that it takes is another.
+    values: BTreeSet<usize>,
+    /// Whether something that it combines is seen without a light.
+    always: bool,
+}
+
+impl Fed {
+    fn of(woven: &Woven, worth: &[Worth], index: usize) -> Self {
+        let mut fed = Self { surfaces: BTreeSet::new(), values: BTreeSet::new(), always: false };
+        let definition = &woven.nodes[index].definition;
+        let ports: &[Port] = if takes_surfaces(definition) { &definition.main.inputs } else { &[] };
+        for (name, wire) in woven.nodes[index].inputs.iter() {
+            let combined = ports.iter().find(|port| &port.name == name && combines(definition, port));
+            match (wire, combined) {
+                (Wire::Output { node, .. }, Some(_)) => {
+                    fed.surfaces.extend(worth[*node].lit.keys());
+                    fed.always |= worth[*node].plain.is_some();
+                }
+                // As a value, a surface is the same under every light: what is seen of it under all.
+                (Wire::Output { node, output, .. }, None) if !is_seen(&woven.nodes[*node].definition, output) => {
+                    fed.values.extend(worth[*node].lit.keys());
+                }
+                (Wire::Value(value), Some(port)) => fed.always |= shines(value, port),
+                _ => {}
+            }
+        }
+        fed
+    }
+}
+
+/// Whether light of this value is to be seen: a default of nothing is not.
+fn shines(value: &Value, port: &Port) -> bool {
+    let dark = value.numbers().is_some_and(|n| n.iter().all(|x| *x == 0.0));
+    !dark || !matches!(&port.default, Some(Default::Value(default)) if default == value)
+}
+
 /// The colour that is written.
-fn root(program: &mut Program, woven: &Woven, worth: &[Worth]) -> Option<Id> {
+fn root(program: &mut Program, woven: &Woven, worth: &[Worth]) -> Id {
     let nowhere = |light| Context { woven, worth, index: 0, light, view: None };
     match &woven.root {
         Root::Surface { node } => {
-            let worth = &worth[*node];
-            let terms: Vec<Id> = worth.lit.values().chain(&worth.plain).filter_map(|o| o.first().copied()).collect();
-            if terms.is_empty() {
-                return Some(program.add(Op::Literal("vec3f(0.0)".into()), Vec::new(), "nothing", None));
-            }
-            Some(program.fold("+", &terms, "radiance"))
+            let output = &woven.nodes[*node].definition.main.outputs[0].name;
+            program.value(&nowhere(None), *node, output)
         }
         Root::Value { node, output, chain } => {
-            let position = woven.nodes[*node].definition.main.outputs.iter().position(|o| &o.name == output)?;
-            let worth = &worth[*node];
-            let terms: Vec<Id> = match &worth.plain {
-                Some(plain) => vec![plain[position]],
-                None => worth.lit.values().map(|o| o[position]).collect(),
-            };
-            let terms: Vec<Id> = terms.into_iter().map(|t| program.converted(t, chain, Some(*node), output)).collect();
-            if terms.is_empty() {
-                return Some(program.add(Op::Literal("vec3f(0.0)".into()), Vec::new(), "nothing", None));
-            }
-            Some(program.fold("+", &terms, "shown"))
+            let value = program.value(&nowhere(None), *node, output);
+            program.converted(value, chain, Some(*node), output)
         }
         Root::Irradiance { lights } => {
             let terms: Vec<Id> =
                 lights.iter().filter_map(|(l, s)| program.irradiance(&nowhere(Some(*l)), *l, s)).collect();
-            Some(program.fold("+", &terms, "irradiance"))
+            program.fold("+", &terms, "irradiance").unwrap_or_else(|| program.zero(&Shape::F32(3)))
         }
         Root::Visibility { light, shadows } => {
             let mut terms = Vec::new();
@@ -140,26 +164,21 @@ fn root(program: &mut Program, woven: &Woven, worth: &[Worth]) -> Option<Id> {
                     visibility
                 });
             }
-            if terms.is_empty() {
-                return Some(program.add(Op::Literal("vec3f(1.0)".into()), Vec::new(), "visibility", None));
-            }
-            Some(program.fold("*", &terms, "visibility"))
+            let lit = |program: &mut Program| program.literal("vec3f(1.0)", "visibility");
+            program.fold("*", &terms, "visibility").unwrap_or_else(|| lit(program))
         }
         Root::Normal { node } => {
             let wire = node.and_then(|n| Some((n, woven.nodes[n].inputs.get("normal")?)));
             if let Some((index, Wire::Output { node: from, output, chain })) = wire {
-                let position = woven.nodes[*from].definition.main.outputs.iter().position(|o| &o.name == output)?;
-                if let Some(plain) = &worth[*from].plain {
-                    let value = plain[position];
-                    return Some(program.converted(value, chain, Some(index), "normal"));
-                }
+                let value = program.value(&nowhere(None), *from, output);
+                return program.converted(value, chain, Some(index), "normal");
             }
             let normal = program.add(Op::Varying(Varying::NormalWorld), Vec::new(), "normal_world", None);
-            Some(program.template("normalize($0)", vec![normal], "normal_world_unit", None))
+            program.template("normalize($0)", vec![normal], "normal_world_unit", None)
         }
         Root::Depth => {
             let depth = program.source("depth");
-            Some(program.template("vec3f($0)", vec![depth], "depth_shown", None))
+            program.template("vec3f($0)", vec![depth], "depth_shown", None)
         }
     }
 }

@@ -4,7 +4,7 @@ use super::{Bake, Id, MapDemand, Op, Parameter, Program, Resource, sampler_setti
 use crate::module::stored;
 use crate::node::{Default, Definition, Port, rename};
 use crate::semantic::{Chain, Kind, Quantity, Shape, Value};
-use crate::weave::{Node, Wire, Woven, is_light, is_shadow};
+use crate::weave::{Node, Wire, Woven, is_light, is_shadow, is_surface};
 
 use std::collections::BTreeMap;
 use std::rc::Rc;
@@ -35,24 +35,29 @@ impl Context<'_> {
         &self.woven.nodes[self.index]
     }
 
-    /// The outputs of another node as seen from here.
-    fn outputs(&self, node: usize) -> Option<&[Id]> {
-        let worth = &self.worth[node];
-        let surface = self.woven.nodes[node].definition.main.outputs.first().map(|p| p.ty.meaning.quantity)
-            == Some(Quantity::Radiance);
-        let under = self.light.and_then(|l| worth.lit.get(&l));
-        match under {
-            Some(outputs) => Some(outputs),
-            // The ambient part of a surface is not part of what it does under a light.
-            None if surface && self.light.is_some() => None,
-            None => worth.plain.as_deref(),
-        }
+    /// What an output of another node is under the light in context, if it has a value of its own there.
+    fn under_light(&self, node: usize, position: usize) -> Option<Id> {
+        self.worth[node].lit.get(&self.light?)?.get(position).copied()
     }
 
-    fn output(&self, node: usize, name: &str) -> Option<Id> {
-        let position = self.woven.nodes[node].definition.main.outputs.iter().position(|o| o.name == name)?;
-        self.outputs(node)?.get(position).copied()
+    /// What a surface contributes here to one that combines it: its share under the light in context, or its ambient part.
+    /// Nothing is darkness.
+    fn contribution(&self, node: usize, output: &str) -> Option<Id> {
+        let definition = &self.woven.nodes[node].definition;
+        match self.light {
+            Some(_) => self.under_light(node, position(&definition.main, output)?),
+            None => self.worth[node].plain.as_ref()?.get(plain_position(definition, output)?).copied(),
+        }
     }
+}
+
+fn position(function: &crate::node::Function, output: &str) -> Option<usize> {
+    function.outputs.iter().position(|o| o.name == output)
+}
+
+/// Where an output stands in what a node is worth under no light.
+fn plain_position(definition: &Definition, output: &str) -> Option<usize> {
+    position(definition.ambient.as_ref().unwrap_or(&definition.main), output)
 }
 
 impl Program {
@@ -96,26 +101,35 @@ impl Program {
     fn argument(&mut self, context: &Context<'_>, port: &Port) -> Option<Id> {
         let node = context.node();
         let origin = Some(context.index);
-        let radiance = port.ty.meaning.quantity == Quantity::Radiance;
+        let combined = combines(&node.definition, port);
         let Some(wire) = node.inputs.get(&port.name) else {
-            return radiance.then(|| self.zero());
+            return combined.then(|| self.zero(&self.shape_of(context.index, port)));
         };
         match wire {
-            Wire::Output { node: from, output, chain } => match context.output(*from, output) {
-                Some(value) => Some(self.converted(value, chain, origin, &port.name)),
-                None if radiance => Some(self.zero()),
-                None => None,
-            },
+            Wire::Output { node: from, output, chain } if combined => Some(match context.contribution(*from, output) {
+                Some(value) => self.converted(value, chain, origin, &port.name),
+                None => self.zero(&self.shape_of(context.index, port)),
+            }),
+            Wire::Output { node: from, output, chain } => {
+                let value = self.value(context, *from, output);
+                Some(self.converted(value, chain, origin, &port.name))
+            }
             Wire::Light { output, chain } => {
-                let value = context.output(context.light?, output)?;
+                let value = self.value(context, context.light?, output);
                 Some(self.converted(value, chain, origin, &port.name))
             }
             Wire::Irradiance => {
                 let light = context.light?;
                 // A light that shines on what lies under this layer, but not on the layer.
-                let Some(shadows) = node.lights.get(&light) else { return Some(self.zero()) };
+                let Some(shadows) = node.lights.get(&light) else {
+                    return Some(self.zero(&self.shape_of(context.index, port)));
+                };
                 let shadows: Vec<usize> = shadows.iter().copied().filter(|s| *s != context.index).collect();
                 self.irradiance(context, light, &shadows)
+            }
+            // What shines without a light is part of what is seen without one.
+            Wire::Value(_) if combined && context.light.is_some() => {
+                Some(self.zero(&self.shape_of(context.index, port)))
             }
             Wire::Value(value) => Some(self.parameter(&node.definition, context.index, port, value)),
             Wire::Source(name) => Some(self.provided(context, name, port)),
@@ -160,8 +174,63 @@ impl Program {
         text
     }
 
-    fn zero(&mut self) -> Id {
-        self.add(Op::Literal("vec3f(0.0)".into()), Vec::new(), "zero", None)
+    /// What an output is worth to an input that takes it as a value, under the light in context or without one: never
+    /// nothing. A surface is all that is seen of it, the same under every light. Another value that is not the same under
+    /// every light is, where none of those lights is in context, their sum if it is an amount of light, else their mean.
+    pub(crate) fn value(&mut self, context: &Context<'_>, node: usize, output: &str) -> Id {
+        let from = &context.woven.nodes[node];
+        let definition = &from.definition;
+        let worth = &context.worth[node];
+        let place = position(&definition.main, output).unwrap_or(0);
+        let plain = worth.plain.as_ref().and_then(|o| o.get(plain_position(definition, output)?)).copied();
+        let seen = is_seen(definition, output);
+        if let Some(value) = context.under_light(node, place).or(plain).filter(|_| !seen) {
+            return value;
+        }
+        let port = &definition.main.outputs[place];
+        let shape = from.output_type(port).shape;
+        let mut terms: Vec<Id> = worth.lit.values().filter_map(|outputs| outputs.get(place)).copied().collect();
+        terms.extend(plain.filter(|_| seen));
+        let numeric = matches!(shape, Shape::F32(_));
+        if !numeric {
+            terms.truncate(1);
+        }
+        let amount = matches!(port.ty.meaning.quantity, Quantity::Radiance | Quantity::Irradiance | Quantity::Emission);
+        let name = format!("{}_{output}", self.nodes[node].short);
+        match terms[..] {
+            [] => self.zero(&shape),
+            [one] => one,
+            _ => {
+                let slots: Vec<String> = (0..terms.len()).map(|i| format!("${i}")).collect();
+                let sum = slots.join(" + ");
+                let text = if amount { sum } else { format!("({sum}) / {}.0", terms.len()) };
+                let id = self.template(&text, terms, &name, None);
+                self.shaped(id, shape)
+            }
+        }
+    }
+
+    /// Nothing of this shape.
+    pub(crate) fn zero(&mut self, shape: &Shape) -> Id {
+        let text = match shape {
+            Shape::Bool => "false".to_owned(),
+            Shape::I32 => "0i".to_owned(),
+            Shape::U32 => "0u".to_owned(),
+            Shape::F32(1) => "0.0".to_owned(),
+            Shape::F32(_) => format!("{}(0.0)", shape.wgsl()),
+            _ => format!("{}()", shape.wgsl()),
+        };
+        self.literal(&text, "zero")
+    }
+
+    /// What a shadow says where nothing casts.
+    pub(crate) fn unit(&mut self, definition: &Definition) -> Id {
+        let scalar = definition.main.outputs[0].ty.shape.width() == Some(1);
+        self.literal(if scalar { "1.0" } else { "vec3f(1.0)" }, "lit")
+    }
+
+    pub(crate) fn literal(&mut self, text: &str, name: &str) -> Id {
+        self.add(Op::Literal(text.into()), Vec::new(), name, None)
     }
 
     /// A source converted to what the port wants: an interpolated normal is normalised here, once for all who ask.
@@ -220,13 +289,12 @@ impl Program {
     pub(crate) fn irradiance(&mut self, context: &Context<'_>, light: usize, shadows: &[usize]) -> Option<Id> {
         let definition = &context.woven.nodes[light].definition;
         let output = definition.main.outputs.iter().find(|o| o.ty.meaning.quantity == Quantity::Irradiance)?;
-        let here = Context { light: Some(light), ..*context };
-        let mut factors = vec![here.output(light, &output.name)?];
+        let mut factors = vec![self.value(context, light, &output.name)];
         let mut shadows = shadows.to_vec();
         shadows.sort_by(|a, b| self.nodes[*a].id.cmp(&self.nodes[*b].id));
-        factors.extend(self.visibilities(here.worth, light, &shadows).into_iter().map(|(_, visibility)| visibility));
+        factors.extend(self.visibilities(context.worth, light, &shadows).into_iter().map(|(_, visibility)| visibility));
         let name = format!("{}_irradiance", self.nodes[light].short);
-        Some(self.fold("*", &factors, &name))
+        self.fold("*", &factors, &name)
     }
 
     /// What shadows say under a light, each with its node; nothing where they are left out.
@@ -235,15 +303,14 @@ impl Program {
         shadows.iter().filter(|_| !self.unshadowed).filter_map(of).collect()
     }
 
-    /// The operands joined by an operator.
-    pub(crate) fn fold(&mut self, operator: &str, operands: &[Id], name: &str) -> Id {
-        if let [one] = operands {
-            return *one;
+    /// Colours joined by an operator, if there are any: irradiance and visibility are summed and multiplied as such.
+    pub(crate) fn fold(&mut self, operator: &str, operands: &[Id], name: &str) -> Option<Id> {
+        if operands.len() < 2 {
+            return operands.first().copied();
         }
         let slots: Vec<String> = (0..operands.len()).map(|i| format!("${i}")).collect();
         let id = self.template(&slots.join(&format!(" {operator} ")), operands.to_vec(), name, None);
-        // Irradiance, radiance and visibility are summed and multiplied as colours.
-        self.shaped(id, Shape::F32(3))
+        Some(self.shaped(id, Shape::F32(3)))
     }
 
     fn parameter(&mut self, definition: &Definition, node: usize, port: &Port, value: &Value) -> Id {
@@ -369,11 +436,18 @@ pub(crate) fn literal(shape: &Shape, port: &Port, value: &Value) -> String {
     }
 }
 
-/// Whether a node of this kind is worth a call at all outside a light.
+/// Whether what feeds an input is combined, light by light and ambient part by ambient part, into a surface.
+pub(crate) fn combines(definition: &Definition, port: &Port) -> bool {
+    let meaning = port.ty.meaning;
+    is_surface(definition) && meaning.quantity == Quantity::Radiance && meaning.kind == Kind::Color
+}
+
+/// Whether a surface combines others.
 pub(crate) fn takes_surfaces(definition: &Definition) -> bool {
-    definition
-        .main
-        .inputs
-        .iter()
-        .any(|p| p.ty.meaning.quantity == Quantity::Radiance && p.ty.meaning.kind == Kind::Color)
+    definition.main.inputs.iter().any(|port| combines(definition, port))
+}
+
+/// Whether an output is what is seen of a surface.
+pub(crate) fn is_seen(definition: &Definition, output: &str) -> bool {
+    is_surface(definition) && definition.output(output).is_some_and(|o| o.ty.meaning.quantity == Quantity::Radiance)
 }

@@ -228,6 +228,9 @@ pub enum Bake {
 impl Program {
     /// The expression that does `op` to `operands`: an existing one if there is one.
     pub fn add(&mut self, op: Op, operands: Vec<Id>, name: &str, origin: Option<usize>) -> Id {
+        if let Op::Template { text, .. } | Op::Literal(text) = &op {
+            assert!(!text.is_empty(), "an expression without text: {name}");
+        }
         let mut key = self.hasher.hash_one((&op, &operands));
         while let Some(&id) = self.known.get(&key) {
             let known = &mut self.expressions[id.0 as usize];

@@ -1,18 +1,26 @@
-//! What a light must have so that maps can be made in its space.
+//! What a light must have so that maps can be made in its space, and who may ask for them.
 
 use std::collections::BTreeSet;
 
 use super::collect::Collected;
-use super::{Node, Wire, is_shadow};
+use super::{Node, Wire, is_light, is_shadow};
 use crate::diagnostic::Diagnostic;
 
-/// Checks every light that carries a shadow with a map: it has a projection, and that comes from values, not links,
-/// because the passes run before the shader does.
+/// Checks every light that carries a map: it has a projection, and that comes from values, not links, because the passes
+/// run before the shader does. What asks for a map is on a light.
 pub(crate) fn check(collected: &Collected<'_>, nodes: &[Option<Node>], out: &mut Vec<Diagnostic>) {
     let mut checked: BTreeSet<usize> = BTreeSet::new();
     for (index, node) in nodes.iter().enumerate() {
         let Some(node) = node else { continue };
-        if !is_shadow(&node.definition) || !node.inputs.values().any(|w| matches!(w, Wire::Space | Wire::Map)) {
+        if !node.inputs.values().any(|w| matches!(w, Wire::Space | Wire::Map)) {
+            continue;
+        }
+        // A shadow on no light has been reported.
+        if is_light(&node.definition) || (node.lights.is_empty() && !is_shadow(&node.definition)) {
+            let message =
+                format!("`{}` ({}) asks for the space of a light and is on none", node.id, node.definition.kind);
+            let help = "only shadows and surfaces with a light linked to them can ask for its space and its maps";
+            out.push(Diagnostic::error("ST0211", message, collected.place(index)).help(help));
             continue;
         }
         for &light in node.lights.keys() {

@@ -14,6 +14,11 @@ use shadetree::diagnostic::SourceText;
 use shadetree::graph;
 use shadetree::node::Catalog;
 
+/// The program's.
+#[cfg(feature = "mimalloc")]
+#[global_allocator]
+static ALLOCATOR: mimalloc::MiMalloc = mimalloc::MiMalloc;
+
 /// A graph file with about `count` nodes of which every one counts.
 fn text(count: usize) -> String {
     let mut nodes = String::from(

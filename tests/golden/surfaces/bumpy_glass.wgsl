@@ -83,15 +83,22 @@ fn perlin_corner3(cell: vec3f, f: vec3f, corner: vec3f) -> f32 {
     return lattice_gradient3(hash_cell3(cell + corner).x, f - corner);
 }
 
+fn perlin_side3(cell: vec3f, f: vec3f, x: f32) -> vec4f {
+    return vec4f(
+        perlin_corner3(cell, f, vec3f(x, 0.0, 0.0)),
+        perlin_corner3(cell, f, vec3f(x, 1.0, 0.0)),
+        perlin_corner3(cell, f, vec3f(x, 0.0, 1.0)),
+        perlin_corner3(cell, f, vec3f(x, 1.0, 1.0)),
+    );
+}
+
 fn perlin_noise3(p: vec3f) -> f32 {
     let cell = floor(p);
     let f = p - cell;
     let w = quintic_fade3(f);
-    let x00 = mix(perlin_corner3(cell, f, vec3f(0.0)), perlin_corner3(cell, f, vec3f(1.0, 0.0, 0.0)), w.x);
-    let x10 = mix(perlin_corner3(cell, f, vec3f(0.0, 1.0, 0.0)), perlin_corner3(cell, f, vec3f(1.0, 1.0, 0.0)), w.x);
-    let x01 = mix(perlin_corner3(cell, f, vec3f(0.0, 0.0, 1.0)), perlin_corner3(cell, f, vec3f(1.0, 0.0, 1.0)), w.x);
-    let x11 = mix(perlin_corner3(cell, f, vec3f(0.0, 1.0, 1.0)), perlin_corner3(cell, f, vec3f(1.0, 1.0, 1.0)), w.x);
-    return mix(mix(x00, x10, w.y), mix(x01, x11, w.y), w.z) * 0.9649214;
+    let x = mix(perlin_side3(cell, f, 0.0), perlin_side3(cell, f, 1.0), w.x);
+    let y = mix(x.xz, x.yw, w.y);
+    return mix(y.x, y.y, w.z) * 0.9649214;
 }
 
 fn unit_normal_or(v: vec3f, otherwise: vec3f) -> vec3f {
