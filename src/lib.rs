@@ -24,7 +24,7 @@ pub mod studio;
 #[cfg(feature = "render")]
 pub mod preview;
 #[cfg(feature = "gui")]
-mod gui;
+pub mod gui;
 pub mod explain;
 pub mod report;
 pub mod cli;

@@ -50,6 +50,7 @@ impl Edit {
             catalog,
             adapter: super::render::adapter_options(self.adapter.as_deref()),
             places: crate::gui::Places::of_system(),
+            paused: false,
         };
         match crate::gui::run(options) {
             Ok(()) => Ok(Exit::Done),

@@ -40,18 +40,21 @@ use exit::{Failure, Outcome};
 #[command(
     name = "shadetree",
     version,
-    arg_required_else_help = true,
+    arg_required_else_help = cfg!(not(feature = "gui")),
     after_help = "Exit codes: 0 done, 1 the input is wrong, 2 the command line is wrong, 3 a file cannot be read or \
 written, 4 no suitable graphics adapter.
 
+Without a command the editor opens.
+
 Examples:
+  shadetree edit graphs/surfaces/bumpy_glass.ron
   shadetree generate graphs/lights/spot_vsm.ron graphs/surfaces/bumpy_glass.ron
   shadetree render graphs/scenes/car.ron -o car.png
   shadetree explain ST0501"
 )]
 struct Cli {
     #[command(subcommand)]
-    command: Command,
+    command: Option<Command>,
     /// Form of messages and listings
     #[arg(long, global = true, value_enum, default_value_t, value_name = "FORM")]
     format: Format,
@@ -113,12 +116,13 @@ fn dispatch(arguments: Vec<OsString>) -> Exit {
         Err(error) => return misused(&error, &arguments),
     };
     let context = Context::new(cli.format, cli.color, cli.quiet, cli.verbose);
-    if cli.format == Format::Md && !matches!(cli.command, Command::Nodes(_)) {
+    let command = cli.command.unwrap_or_else(|| Command::Edit(edit::Edit::default()));
+    if cli.format == Format::Md && !matches!(command, Command::Nodes(_)) {
         let failure = Failure::usage("only `nodes` can write Markdown", "use --format text or json");
         context.report(&failure.diagnostics);
         return failure.exit;
     }
-    cli.command.run(&context).unwrap_or_else(|failure| {
+    command.run(&context).unwrap_or_else(|failure| {
         context.report(&failure.diagnostics);
         failure.exit
     })

@@ -217,7 +217,9 @@ impl Editor {
                     tab.selection = new;
                 }
             }
-            Err(found) => self.say(found.first().map_or_else(|| "nothing to paste".to_owned(), |d| format!("cannot paste: {}", d.message))),
+            Err(found) => self.say(
+                found.first().map_or_else(|| "nothing to paste".to_owned(), |d| format!("cannot paste: {}", d.message)),
+            ),
         }
     }
 
@@ -261,7 +263,10 @@ impl Editor {
         let Some(tab) = self.tab() else { return };
         let at = position(tab.camera.center);
         let _ = pointer;
-        self.finder = Some((Wanted::Add { at, wire: None }, Finder::new("Add node", Some(self.canvas.center() - vec2(190.0, 210.0)))));
+        self.finder = Some((
+            Wanted::Add { at, wire: None },
+            Finder::new("Add node", Some(self.canvas.center() - vec2(190.0, 210.0))),
+        ));
     }
 
     fn switch(&mut self, command: Command) {
@@ -288,7 +293,8 @@ impl Editor {
         let Some(tab) = self.tab() else { return };
         let Some(node) = tab.only() else { return };
         let look = Look::Node { graph: tab.key().to_path_buf(), node: node.to_owned(), port: None };
-        self.preview.look = if self.preview.look == look { Look::Output(crate::compile::Output::Radiance) } else { look };
+        self.preview.look =
+            if self.preview.look == look { Look::Output(crate::compile::Output::Radiance) } else { look };
     }
 
     fn link_command(&mut self, command: Command) {
@@ -423,12 +429,14 @@ impl Editor {
     /// Makes the shadow on a light one of another kind.
     pub(super) fn use_shadow(&mut self, light: &str, kind: &str) {
         let Some(tab) = self.tab() else { return };
-        let is_shadow = |kind: &str| self.catalog.get(kind).and_then(|f| f.header().ok()).is_some_and(|h| h.category == "shadow");
+        let is_shadow =
+            |kind: &str| self.catalog.get(kind).and_then(|f| f.header().ok()).is_some_and(|h| h.category == "shadow");
         let graph = tab.graph();
         let own: Vec<&String> = graph.nodes.iter().filter(|(_, n)| is_shadow(&n.kind)).map(|(name, _)| name).collect();
         let short = light.rsplit('/').next().unwrap_or(light);
         let fed = |shadow: &str| graph.links.iter().any(|l| l.to.node == shadow && l.from.node == short);
-        let chosen = own.iter().find(|s| fed(s)).or_else(|| own.first().filter(|_| own.len() == 1)).map(|s| (*s).clone());
+        let chosen =
+            own.iter().find(|s| fed(s)).or_else(|| own.first().filter(|_| own.len() == 1)).map(|s| (*s).clone());
         match chosen {
             Some(shadow) => {
                 let edit = view::swap_kind(graph, &self.catalog, &shadow, kind);
@@ -470,6 +478,13 @@ fn weight(m: Modifiers) -> u8 {
 fn takes_text(command: Command) -> bool {
     matches!(
         command,
-        Command::Undo | Command::Redo | Command::SelectAll | Command::MoveLeft | Command::MoveRight | Command::MoveUp | Command::MoveDown | Command::DeleteHeal
+        Command::Undo
+            | Command::Redo
+            | Command::SelectAll
+            | Command::MoveLeft
+            | Command::MoveRight
+            | Command::MoveUp
+            | Command::MoveDown
+            | Command::DeleteHeal
     )
 }

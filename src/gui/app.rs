@@ -1,26 +1,24 @@
 //! The editor's window: what is open, and the panels around the canvas.
 
-use std::collections::BTreeMap;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 use eframe::egui::{self, Panel, Ui, ViewportCommand};
 
-use super::canvas::{self, Surroundings, Target};
+use super::canvas::Target;
 use super::code::Pane;
-use super::command::{Command, Menu, Needs};
+use super::command::{Command, Needs};
 use super::cost;
-use super::dialogs::{Dialog, PathDialog, Purpose};
+use super::dialogs::Dialog;
 use super::feed::Feed;
 use super::files::{Places, Recovery, Settings};
 use super::finder::Finder;
-use super::inspector::{self, Drafts};
+use super::inspector::Drafts;
 use super::library::Library;
 use super::outline::{self, Outline};
-use super::preview::{self, Preview};
+use super::preview::Preview;
 use super::tab::Tab;
-use super::{problems, theme};
 use crate::graph::{End, Graph};
 use crate::node::Catalog;
 use crate::preview::Engine;
@@ -29,17 +27,21 @@ use crate::view::Pending;
 
 /// How the editor starts.
 #[derive(Clone, Default)]
-pub(crate) struct Options {
+pub struct Options {
     /// Graphs to open.
-    pub(crate) files: Vec<PathBuf>,
+    pub files: Vec<PathBuf>,
     /// A scene to show them in.
-    pub(crate) scene: Option<PathBuf>,
+    pub scene: Option<PathBuf>,
     /// Folders of nodes.
-    pub(crate) nodes: Vec<PathBuf>,
-    pub(crate) catalog: Catalog,
-    pub(crate) adapter: AdapterOptions,
+    pub nodes: Vec<PathBuf>,
+    /// All nodes that there are, those of the folders with them.
+    pub catalog: Catalog,
+    /// Where the preview is rendered.
+    pub adapter: AdapterOptions,
     /// Where settings and recovery files are kept; nowhere if none.
-    pub(crate) places: Option<Places>,
+    pub places: Option<Places>,
+    /// Start with the preview paused.
+    pub paused: bool,
 }
 
 /// What a list of rows was opened for.
@@ -61,7 +63,7 @@ pub(super) enum Page {
 }
 
 /// The editor.
-pub(crate) struct Editor {
+pub struct Editor {
     pub(super) catalog: Catalog,
     pub(super) node_folders: Vec<PathBuf>,
     pub(super) tabs: Vec<Tab>,
@@ -92,7 +94,7 @@ pub(crate) struct Editor {
     pub(super) canvas_has_pointer: bool,
     /// Text that was copied, where the system has no clipboard.
     pub(super) clipboard: String,
-    last_selected: Option<String>,
+    pub(super) last_selected: Option<String>,
 }
 
 /// How often texts that are not saved are kept.
@@ -103,7 +105,8 @@ const LOOK: Duration = Duration::from_secs(1);
 const TOAST: Duration = Duration::from_secs(7);
 
 impl Editor {
-    pub(crate) fn new(ctx: &egui::Context, options: Options) -> Self {
+    /// An editor in a window of its own.
+    pub fn new(ctx: &egui::Context, options: Options) -> Self {
         let wake = ctx.clone();
         let engine = Engine::start(options.adapter, Arc::new(move || wake.request_repaint()));
         let settings = options.places.as_ref().map(Places::settings).unwrap_or_default();
@@ -125,7 +128,7 @@ impl Editor {
             counter: 0,
             feed: Feed::new(engine),
             library: Library::default(),
-            preview: Preview { scene: options.scene, ..Preview::default() },
+            preview: Preview { scene: options.scene, paused: options.paused, ..Preview::default() },
             pane: Pane::default(),
             outline: Outline::default(),
             drafts: Drafts::default(),
@@ -187,14 +190,13 @@ impl Editor {
         self.tabs.get_mut(self.active)
     }
 
-    /// The open document, for tests.
-    #[cfg(test)]
-    pub(crate) fn document(&self) -> Option<&crate::view::Document> {
+    /// The document that is being edited.
+    pub fn document(&self) -> Option<&crate::view::Document> {
         self.tab().map(|t| &t.document)
     }
 
     /// The graph that the preview shows: the outermost that the active one was opened from.
-    fn shown(&self) -> Option<usize> {
+    pub(super) fn shown(&self) -> Option<usize> {
         let mut index = self.active;
         for _ in 0..crate::graph::MAX_NESTING {
             let Some((outer, _)) = self.tabs.get(index)?.outer.as_ref() else { break };
@@ -220,212 +222,6 @@ impl Editor {
         }
     }
 
-    fn menus(&mut self, ui: &mut Ui) {
-        let mut run = None;
-        egui::MenuBar::new().ui(ui, |ui| {
-            for (menu, title) in Menu::ALL {
-                ui.menu_button(title, |ui| {
-                    ui.set_min_width(250.0);
-                    for command in Command::ALL.iter().filter(|c| c.menu() == menu) {
-                        let keys = command.keys().first().map_or_else(String::new, |k| ui.ctx().format_shortcut(k));
-                        let button = egui::Button::new(self.label_of(*command)).shortcut_text(keys);
-                        if ui.add_enabled(self.can(*command), button).on_hover_text(command.help()).clicked() {
-                            run = Some(*command);
-                            ui.close();
-                        }
-                    }
-                    if menu == Menu::File && !self.settings.recent.is_empty() {
-                        ui.menu_button("Recent", |ui| {
-                            for path in self.settings.recent.clone() {
-                                if ui.button(path.display().to_string()).clicked() {
-                                    self.open(&path);
-                                    ui.close();
-                                }
-                            }
-                        });
-                    }
-                });
-            }
-            ui.separator();
-            self.tab_bar(ui, &mut run);
-        });
-        if let Some(command) = run {
-            self.run(ui.ctx(), command);
-        }
-    }
-
-    /// What a command is called now: with a mark where it is switched on, and with what it would undo.
-    fn label_of(&self, command: Command) -> String {
-        let on = match command {
-            Command::Snap => self.settings.snap,
-            Command::Minimap => self.settings.minimap,
-            Command::Thumbnails => self.thumbnails,
-            Command::CostOverlay => self.costs,
-            Command::Outline => self.settings.outline,
-            Command::Bottom => self.settings.bottom,
-            Command::Side => self.settings.side,
-            Command::Pause => self.preview.paused,
-            _ => false,
-        };
-        let document = self.tab().map(|t| &t.document);
-        let of = match command {
-            Command::Undo => document.and_then(|d| d.undo_label()),
-            Command::Redo => document.and_then(|d| d.redo_label()),
-            _ => None,
-        };
-        let mark = if on { "✔ " } else { "" };
-        match of {
-            Some(of) => format!("{mark}{}: {of}", command.label()),
-            None => format!("{mark}{}", command.label()),
-        }
-    }
-
-    fn tab_bar(&mut self, ui: &mut Ui, run: &mut Option<Command>) {
-        let mut go = None;
-        egui::ScrollArea::horizontal().id_salt("tabs").show(ui, |ui| {
-            for (i, tab) in self.tabs.iter().enumerate() {
-                let response = ui.selectable_label(i == self.active, tab.title());
-                if response.on_hover_text(tab.key().display().to_string()).clicked() {
-                    go = Some(i);
-                }
-                if i == self.active && ui.small_button("×").on_hover_text("Close").clicked() {
-                    *run = Some(Command::Close);
-                }
-            }
-        });
-        if let Some(i) = go {
-            self.active = i;
-        }
-    }
-
-    /// The way from the outermost graph to this one.
-    fn crumbs(&mut self, ui: &mut Ui) {
-        let mut way = Vec::new();
-        let mut index = Some(self.active);
-        while let Some(i) = index.filter(|_| way.len() < crate::graph::MAX_NESTING) {
-            let Some(tab) = self.tabs.get(i) else { break };
-            way.push((i, tab.title(), tab.outer.as_ref().map(|(_, node)| node.clone())));
-            index = tab.outer.as_ref().and_then(|(key, _)| self.tabs.iter().position(|t| t.key() == key));
-        }
-        if way.len() < 2 {
-            return;
-        }
-        ui.horizontal(|ui| {
-            for (i, title, node) in way.into_iter().rev() {
-                if let Some(node) = node {
-                    ui.weak(format!("› {node}:"));
-                }
-                if ui.selectable_label(i == self.active, title).clicked() {
-                    self.active = i;
-                }
-            }
-        });
-    }
-
-    fn side(&mut self, ui: &mut Ui) {
-        let busy = self.feed.engine.busy();
-        let Self { tabs, active, preview, catalog, library, drafts, feed, .. } = self;
-        let mut wishes = Vec::new();
-        let mut asked = Vec::new();
-        let height = ui.available_height();
-        Panel::top("preview").resizable(true).default_size(330.0).size_range(120.0..=(height - 120.0).max(130.0)).show(ui, |ui| {
-            let tab = tabs.get_mut(*active);
-            let key = tab.as_ref().map(|t| t.key().to_path_buf()).unwrap_or_default();
-            wishes = preview.show(ui, tab, catalog, &|path| library.get(&key, path), busy);
-        });
-        egui::CentralPanel::default().show(ui, |ui| {
-            egui::ScrollArea::vertical().auto_shrink([false, false]).id_salt("inspector").show(ui, |ui| {
-                if let Some(tab) = tabs.get_mut(*active) {
-                    let key = tab.key().to_path_buf();
-                    let found = feed.problems_of(&key);
-                    let own = tab.only().and_then(|n| found.get(n)).cloned().unwrap_or_default();
-                    asked = inspector::show(ui, tab, drafts, catalog, &|path| library.get(&key, path), &own);
-                }
-            });
-        });
-        for wish in wishes {
-            match wish {
-                preview::Wish::OpenScene => self.dialog = Some(Dialog::Path(PathDialog::new(Purpose::Scene, "graphs/scenes/"))),
-                preview::Wish::OpenModel => self.dialog = Some(Dialog::Path(PathDialog::new(Purpose::Model, ""))),
-                preview::Wish::Abandon => {
-                    self.feed.engine.abandon();
-                    self.feed.again();
-                    self.preview.paused = true;
-                    self.say("The picture was left behind and the preview is paused: change the graph, then resume it.");
-                }
-            }
-        }
-        for wish in asked {
-            match wish {
-                inspector::Wish::Browse(node, port) => {
-                    self.dialog = Some(Dialog::Path(PathDialog::new(Purpose::Picture { node, port }, "")));
-                }
-                inspector::Wish::Say(text) => self.say(text),
-                inspector::Wish::Enter(node) => self.enter(&node),
-            }
-        }
-    }
-
-    fn bottom(&mut self, ui: &mut Ui) {
-        // The panel keeps the height that it was given.
-        ui.set_min_height(ui.available_height());
-        ui.horizontal(|ui| {
-            let errors = self.feed.found.len();
-            ui.selectable_value(&mut self.page, Page::Text, "WGSL");
-            let title = if errors > 0 { format!("Problems ({errors})") } else { "Problems".to_owned() };
-            ui.selectable_value(&mut self.page, Page::Problems, title);
-            ui.selectable_value(&mut self.page, Page::Cost, "Cost and accuracy");
-        });
-        ui.separator();
-        match self.page {
-            Page::Problems => {
-                if let Some(wanted) = problems::show(ui, &self.feed.found)
-                    && let Some(node) = wanted.place.node
-                {
-                    let file = wanted.place.span.as_ref().map(|s| s.source.name.clone()).or(wanted.place.file);
-                    if let Some(i) = self.tabs.iter().position(|t| file.as_deref().is_some_and(|f| t.key() == Path::new(f))) {
-                        self.active = i;
-                    }
-                    self.go_to(&node);
-                }
-            }
-            Page::Text => {
-                let selected = self.tab().and_then(|t| t.only().map(str::to_owned));
-                let clicked = self.pane.show(ui, &self.feed.shaders, selected.as_deref(), self.settings.dark);
-                if let Some(full) = clicked {
-                    let known = self.tab().and_then(|t| t.graph().nodes.keys().find(|n| super::code::same(&full, n)).cloned());
-                    match known {
-                        Some(node) => {
-                            self.last_selected = Some(node.clone());
-                            self.go_to(&node);
-                        }
-                        None => self.say(format!("that line comes from `{full}`, which is in another graph")),
-                    }
-                }
-            }
-            Page::Cost => {
-                for wish in self.cost.show(ui, &self.feed, &self.preview) {
-                    self.cost_wish(wish);
-                }
-            }
-        }
-    }
-
-    fn cost_wish(&mut self, wish: cost::Wish) {
-        match wish {
-            cost::Wish::Measure(light) => {
-                if let Some(shown) = self.shown().and_then(|i| self.tabs.get(i)) {
-                    self.feed.measure(&self.tabs, shown, &self.preview, &self.node_folders, light);
-                }
-            }
-            cost::Wish::Cancel => {
-                self.feed.engine.cancel();
-                self.feed.measuring = false;
-            }
-            cost::Wish::Use { light, kind } => self.use_shadow(&light, &kind),
-        }
-    }
-
     /// Brings a node into view and selects it.
     pub(super) fn go_to(&mut self, node: &str) {
         let size = self.canvas.size();
@@ -444,49 +240,23 @@ impl Editor {
         }
     }
 
-    fn center(&mut self, ui: &mut Ui) {
-        self.crumbs(ui);
-        let thumbnails: BTreeMap<String, egui::TextureId> =
-            self.feed.thumbnails.iter().map(|(node, texture)| (node.clone(), texture.id())).collect();
-        let none = BTreeMap::new();
-        let Self { tabs, active, catalog, library, feed, settings, .. } = self;
-        let Some(tab) = tabs.get_mut(*active) else { return };
-        let key = tab.key().to_path_buf();
-        let around = Surroundings {
-            catalog,
-            subgraphs: &|path| library.get(&key, path),
-            wiring: &feed.wiring_of(&key),
-            problems: &feed.problems_of(&key),
-            costs: if self.costs { &feed.costs } else { &none },
-            thumbnails: self.thumbnails.then_some(&thumbnails),
-            grid: if settings.snap { 10.0 } else { 0.0 },
-            minimap: settings.minimap,
-        };
-        let (response, wishes) = canvas::show(ui, tab, &around);
-        self.canvas = response.rect;
-        self.canvas_has_pointer = response.contains_pointer();
-        if tab.graph().nodes.is_empty() {
-            let text = "Press Space or right-click to add a node.\nCtrl+Shift+O opens an example.";
-            ui.painter().text(response.rect.center(), egui::Align2::CENTER_CENTER, text, egui::FontId::proportional(16.0), theme::Look::of(ui.visuals()).weak);
-        }
-        for wish in wishes {
-            self.canvas_wish(wish);
-        }
-    }
-
     fn toasts(&mut self, ctx: &egui::Context) {
         self.toasts.retain(|(_, at)| at.elapsed() < TOAST);
         if self.toasts.is_empty() {
             return;
         }
-        egui::Area::new(egui::Id::new("messages")).anchor(egui::Align2::CENTER_BOTTOM, [0.0, -16.0]).order(egui::Order::Tooltip).interactable(false).show(ctx, |ui| {
-            for (text, _) in &self.toasts {
-                egui::Frame::popup(ui.style()).show(ui, |ui| {
-                    ui.set_max_width(560.0);
-                    ui.label(text);
-                });
-            }
-        });
+        egui::Area::new(egui::Id::new("messages"))
+            .anchor(egui::Align2::CENTER_BOTTOM, [0.0, -16.0])
+            .order(egui::Order::Tooltip)
+            .interactable(false)
+            .show(ctx, |ui| {
+                for (text, _) in &self.toasts {
+                    egui::Frame::popup(ui.style()).show(ui, |ui| {
+                        ui.set_max_width(560.0);
+                        ui.label(text);
+                    });
+                }
+            });
         ctx.request_repaint_after(Duration::from_millis(500));
     }
 
@@ -564,10 +334,18 @@ impl eframe::App for Editor {
         }
         Panel::top("menu").show(ui, |ui| self.menus(ui));
         if self.settings.bottom {
-            Panel::bottom("bottom").resizable(true).default_size(230.0).size_range(90.0..=600.0).show(ui, |ui| self.bottom(ui));
+            Panel::bottom("bottom")
+                .resizable(true)
+                .default_size(230.0)
+                .size_range(90.0..=600.0)
+                .show(ui, |ui| self.bottom(ui));
         }
         if self.settings.side {
-            Panel::right("side").resizable(true).default_size(400.0).size_range(260.0..=900.0).show(ui, |ui| self.side(ui));
+            Panel::right("side")
+                .resizable(true)
+                .default_size(400.0)
+                .size_range(260.0..=900.0)
+                .show(ui, |ui| self.side(ui));
         }
         if self.settings.outline {
             Panel::left("outline").resizable(true).default_size(190.0).size_range(120.0..=500.0).show(ui, |ui| {

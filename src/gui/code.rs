@@ -50,7 +50,13 @@ impl Pane {
     }
 
     /// Shows the text. Answers the node that was clicked.
-    pub(super) fn show(&mut self, ui: &mut Ui, shaders: &[ShaderText], selected: Option<&str>, dark: bool) -> Option<String> {
+    pub(super) fn show(
+        &mut self,
+        ui: &mut Ui,
+        shaders: &[ShaderText],
+        selected: Option<&str>,
+        dark: bool,
+    ) -> Option<String> {
         if shaders.is_empty() {
             ui.weak("No shader yet.");
             return None;
@@ -110,7 +116,10 @@ fn lines(ui: &mut Ui, shown: &Shown, selected: Option<&str>, dark: bool, goto: O
             let job = colored(shown, &range, number, dark, &font);
             let response = ui.add(egui::Label::new(job).selectable(false).extend().sense(egui::Sense::click()));
             if lit {
-                let row = egui::Rect::from_min_max(egui::pos2(ui.clip_rect().left(), response.rect.top()), egui::pos2(ui.clip_rect().right(), response.rect.bottom()));
+                let row = egui::Rect::from_min_max(
+                    egui::pos2(ui.clip_rect().left(), response.rect.top()),
+                    egui::pos2(ui.clip_rect().right(), response.rect.bottom()),
+                );
                 ui.painter().rect_filled(row, 0.0, Color32::from_rgba_unmultiplied(0x6c, 0xb4, 0xff, 48));
             }
             if response.clicked() {
@@ -154,7 +163,9 @@ fn translated(of: &Compiled, target: Target) -> String {
                 true => words(&file.bytes),
                 false => String::from_utf8_lossy(&file.bytes).into_owned(),
             };
-            let title = |file: &crate::export::File| if files.len() > 1 { format!("// {}\n", file.extension) } else { String::new() };
+            let title = |file: &crate::export::File| {
+                if files.len() > 1 { format!("// {}\n", file.extension) } else { String::new() }
+            };
             files.iter().map(|file| title(file) + &one(file)).collect::<Vec<_>>().join("\n")
         }
         Err(found) => found.iter().map(|d| crate::report::text(d, false)).collect(),
@@ -170,8 +181,36 @@ fn words(bytes: &[u8]) -> String {
 /// Which parts of a text have a colour of their own.
 fn parts(text: &str) -> Vec<(Range<usize>, Part)> {
     const KEYWORDS: &[&str] = &[
-        "fn", "let", "var", "const", "return", "if", "else", "for", "loop", "while", "break", "continue", "struct", "switch", "case", "default",
-        "discard", "override", "alias", "using", "namespace", "constant", "static", "in", "out", "inout", "void", "layout", "uniform", "precision",
+        "fn",
+        "let",
+        "var",
+        "const",
+        "return",
+        "if",
+        "else",
+        "for",
+        "loop",
+        "while",
+        "break",
+        "continue",
+        "struct",
+        "switch",
+        "case",
+        "default",
+        "discard",
+        "override",
+        "alias",
+        "using",
+        "namespace",
+        "constant",
+        "static",
+        "in",
+        "out",
+        "inout",
+        "void",
+        "layout",
+        "uniform",
+        "precision",
     ];
     let mut parts = Vec::new();
     let tokens = tokenize(text);
@@ -254,7 +293,8 @@ mod tests {
     #[test]
     fn parts_are_told_apart() {
         let text = "@vertex\nfn a(x: vec3f) -> f32 { // why\n    return 1.5; /* b */ }\n";
-        let found: Vec<(&str, bool)> = parts(text).iter().map(|(r, p)| (&text[r.clone()], *p == Part::Comment)).collect();
+        let found: Vec<(&str, bool)> =
+            parts(text).iter().map(|(r, p)| (&text[r.clone()], *p == Part::Comment)).collect();
         let words: Vec<&str> = found.iter().map(|(t, _)| t.trim()).collect();
         assert_eq!(words, ["vertex", "fn", "vec3f", "f32", "// why", "return", "1.5", "/* b */"]);
         assert_eq!(found.iter().filter(|(_, c)| *c).count(), 2);

@@ -14,7 +14,10 @@ pub(super) enum Wish {
     Measure(String),
     Cancel,
     /// Make the shadow of this light one of this kind.
-    Use { light: String, kind: String },
+    Use {
+        light: String,
+        kind: String,
+    },
 }
 
 /// State of the panel alone.
@@ -64,7 +67,11 @@ impl Panel {
                 }
                 ui.spinner();
                 ui.label(format!("{} measured", feed.points.len()));
-            } else if ui.button("Measure").on_hover_text("Renders every kind of shadow against the ray-traced truth").clicked() {
+            } else if ui
+                .button("Measure")
+                .on_hover_text("Renders every kind of shadow against the ray-traced truth")
+                .clicked()
+            {
                 wishes.push(Wish::Measure(light.clone()));
             }
             if let Some(best) = best(&feed.points) {
@@ -72,7 +79,9 @@ impl Panel {
             }
         });
         if feed.points.is_empty() {
-            ui.weak("Measure to see the error of each kind of shadow against its time. A click on a point uses that kind.");
+            ui.weak(
+                "Measure to see the error of each kind of shadow against its time. A click on a point uses that kind.",
+            );
             return;
         }
         let points = placed(&feed.points);
@@ -90,15 +99,29 @@ impl Panel {
             for (i, (point, [x, y])) in points.iter().enumerate() {
                 let on_front = front.contains(&point.kind);
                 let color = if on_front { color(i) } else { egui::Color32::GRAY };
-                plot.points(Points::new(point.kind.clone(), PlotPoints::from(vec![[*x, *y]])).radius(if on_front { 7.0 } else { 5.0 }).shape(shape(i)).color(color));
+                plot.points(
+                    Points::new(point.kind.clone(), PlotPoints::from(vec![[*x, *y]]))
+                        .radius(if on_front { 7.0 } else { 5.0 })
+                        .shape(shape(i))
+                        .color(color),
+                );
                 let ink = if dark { egui::Color32::from_gray(220) } else { egui::Color32::from_gray(30) };
-                plot.text(Text::new(String::new(), [*x, *y].into(), egui::RichText::new(format!("  {}", point.kind.trim_end_matches("_shadow"))).color(ink)).anchor(egui::Align2::LEFT_CENTER));
+                plot.text(
+                    Text::new(
+                        String::new(),
+                        [*x, *y].into(),
+                        egui::RichText::new(format!("  {}", point.kind.trim_end_matches("_shadow"))).color(ink),
+                    )
+                    .anchor(egui::Align2::LEFT_CENTER),
+                );
             }
             plot.response().clicked().then(|| plot.pointer_coordinate()).flatten().map(|p| (p, *plot.transform()))
         });
         if let Some((at, transform)) = response.inner {
             let clicked = transform.position_from_point(&at);
-            let far = |p: &[f64; 2]| (transform.position_from_point(&egui_plot::PlotPoint::new(p[0], p[1])) - clicked).length();
+            let far = |p: &[f64; 2]| {
+                (transform.position_from_point(&egui_plot::PlotPoint::new(p[0], p[1])) - clicked).length()
+            };
             let near = points.iter().min_by(|a, b| far(&a.1).total_cmp(&far(&b.1)));
             if let Some((point, place)) = near
                 && far(place) < 14.0
@@ -111,7 +134,10 @@ impl Panel {
             ui.label("Use");
             for point in &feed.points {
                 if ui.small_button(point.kind.trim_end_matches("_shadow")).on_hover_text(told(point)).clicked() {
-                    wishes.push(Wish::Use { light: self.light.clone().filter(|l| lights.contains(l)).unwrap_or_else(|| lights[0].clone()), kind: point.kind.clone() });
+                    wishes.push(Wish::Use {
+                        light: self.light.clone().filter(|l| lights.contains(l)).unwrap_or_else(|| lights[0].clone()),
+                        kind: point.kind.clone(),
+                    });
                 }
             }
         });
@@ -132,7 +158,11 @@ fn passes(ui: &mut Ui, feed: &Feed, preview: &Preview) {
                 ui.monospace(pass.milliseconds.map_or_else(|| "kept".into(), |ms| format!("{ms:8.3} ms")));
                 ui.end_row();
             }
-            for (name, ms) in [("weave and prove", feed.compile_ms), ("picture in all", image.milliseconds), ("change to picture", feed.latency_ms)] {
+            for (name, ms) in [
+                ("weave and prove", feed.compile_ms),
+                ("picture in all", image.milliseconds),
+                ("change to picture", feed.latency_ms),
+            ] {
                 ui.weak(name);
                 ui.monospace(format!("{ms:8.3} ms"));
                 ui.end_row();
@@ -175,7 +205,15 @@ fn power(log: f64) -> String {
 
 /// Colours that are told apart without red and green.
 fn color(i: usize) -> egui::Color32 {
-    const COLORS: [(u8, u8, u8); 7] = [(0xe6, 0x9f, 0x00), (0x56, 0xb4, 0xe9), (0x00, 0x9e, 0x73), (0xf0, 0xe4, 0x42), (0x00, 0x72, 0xb2), (0xd5, 0x5e, 0x00), (0xcc, 0x79, 0xa7)];
+    const COLORS: [(u8, u8, u8); 7] = [
+        (0xe6, 0x9f, 0x00),
+        (0x56, 0xb4, 0xe9),
+        (0x00, 0x9e, 0x73),
+        (0xf0, 0xe4, 0x42),
+        (0x00, 0x72, 0xb2),
+        (0xd5, 0x5e, 0x00),
+        (0xcc, 0x79, 0xa7),
+    ];
     let (r, g, b) = COLORS[i % COLORS.len()];
     egui::Color32::from_rgb(r, g, b)
 }

@@ -115,7 +115,8 @@ impl PathDialog {
         }
         modal(ctx, self.purpose.title(), 480.0, |ui| {
             let label = ui.label("Path");
-            let field = ui.add(egui::TextEdit::singleline(&mut self.text).desired_width(f32::INFINITY)).labelled_by(label.id);
+            let field =
+                ui.add(egui::TextEdit::singleline(&mut self.text).desired_width(f32::INFINITY)).labelled_by(label.id);
             if std::mem::take(&mut self.fresh) {
                 field.request_focus();
             }
@@ -196,7 +197,8 @@ impl Gallery {
     /// The examples below the working folder or beside the program.
     pub(super) fn find() -> Self {
         let beside = std::env::current_exe().ok();
-        let roots = std::iter::once(PathBuf::new()).chain(beside.iter().flat_map(|p| p.ancestors().skip(1).take(4)).map(Path::to_path_buf));
+        let roots = std::iter::once(PathBuf::new())
+            .chain(beside.iter().flat_map(|p| p.ancestors().skip(1).take(4)).map(Path::to_path_buf));
         let root = roots.map(|r| r.join("graphs")).find(|g| g.join("surfaces").is_dir());
         let mut entries = Vec::new();
         for folder in root.iter().flat_map(|root| ["surfaces", "lights", "scenes"].map(|f| root.join(f))) {
@@ -230,7 +232,8 @@ impl Gallery {
                             && let Some(image) = small(picture)
                         {
                             budget -= 1;
-                            let texture = ctx.load_texture(format!("example {stem}"), image, egui::TextureOptions::LINEAR);
+                            let texture =
+                                ctx.load_texture(format!("example {stem}"), image, egui::TextureOptions::LINEAR);
                             self.textures.insert(path.clone(), texture);
                             ctx.request_repaint();
                         }
@@ -328,7 +331,9 @@ impl Dialog {
             Self::Recover(lost) => modal(ctx, "Recovered graphs", 460.0, |ui| {
                 ui.label("The editor ended before these were saved:");
                 for one in lost.iter() {
-                    ui.monospace(one.path.as_ref().map_or_else(|| "a new graph".to_owned(), |p| p.display().to_string()));
+                    ui.monospace(
+                        one.path.as_ref().map_or_else(|| "a new graph".to_owned(), |p| p.display().to_string()),
+                    );
                 }
                 ui.horizontal(|ui| {
                     if ui.button("Open them").clicked() {
@@ -343,7 +348,10 @@ impl Dialog {
                 });
             }),
             Self::Shortcuts => modal(ctx, "Shortcuts", 720.0, |ui| {
-                egui::ScrollArea::vertical().max_height(460.0).auto_shrink([false, true]).show(ui, |ui| shortcuts(ui, ctx));
+                egui::ScrollArea::vertical()
+                    .max_height(460.0)
+                    .auto_shrink([false, true])
+                    .show(ui, |ui| shortcuts(ui, ctx));
                 ui.separator();
                 if ui.button("Close").clicked() || escape {
                     answer = Some(Answer::Cancel);

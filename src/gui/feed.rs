@@ -12,6 +12,9 @@ use super::tab::Tab;
 use crate::diagnostic::Diagnostic;
 use crate::preview::{Answer, Engine, Look, Point, Request, Resolved, ShaderText, Show};
 
+/// What links came to, by the nodes at their ends.
+pub(super) type Wiring = BTreeMap<(String, String), Vec<Resolved>>;
+
 /// What the engine said last.
 pub(super) struct Feed {
     pub(super) engine: Engine,
@@ -20,7 +23,7 @@ pub(super) struct Feed {
     pub(super) shaders: Vec<ShaderText>,
     pub(super) found: Vec<Diagnostic>,
     /// By the graph's name, then by the nodes at the ends of links.
-    wiring: Vec<Resolved>,
+    wiring: BTreeMap<String, Wiring>,
     pub(super) costs: BTreeMap<String, (f32, String)>,
     /// Time from a change to its shaders, milliseconds.
     pub(super) compile_ms: f64,
@@ -46,7 +49,7 @@ impl Feed {
             revision: 0,
             shaders: Vec::new(),
             found: Vec::new(),
-            wiring: Vec::new(),
+            wiring: BTreeMap::new(),
             costs: BTreeMap::new(),
             compile_ms: 0.0,
             points: Vec::new(),
@@ -70,7 +73,7 @@ impl Feed {
                     // A broken graph leaves the last good text and wiring.
                     if !shaders.shaders.is_empty() {
                         self.shaders = shaders.shaders;
-                        self.wiring = shaders.wiring;
+                        self.wiring = by_graph(shaders.wiring);
                     }
                 }
                 Answer::Shaders(_) => {}
@@ -89,7 +92,8 @@ impl Feed {
                     let size = [image.size.0 as usize, image.size.1 as usize];
                     if image.rgba.len() == size[0] * size[1] * 4 {
                         let pixels = egui::ColorImage::from_rgba_unmultiplied(size, &image.rgba);
-                        let texture = ctx.load_texture(format!("thumbnail {node}"), pixels, egui::TextureOptions::LINEAR);
+                        let texture =
+                            ctx.load_texture(format!("thumbnail {node}"), pixels, egui::TextureOptions::LINEAR);
                         self.thumbnails.insert(node, texture);
                     }
                 }
@@ -105,7 +109,9 @@ impl Feed {
         let Some(shown) = shown else { return };
         let state: Vec<String> = tabs
             .iter()
-            .map(|t| format!("{} {} {}", t.key().display(), t.document.structure_revision(), t.document.value_revision()))
+            .map(|t| {
+                format!("{} {} {}", t.key().display(), t.document.structure_revision(), t.document.value_revision())
+            })
             .collect();
         let show = preview.show_what(shown.key().to_path_buf());
         let key = format!(
@@ -124,7 +130,9 @@ impl Feed {
     /// Whether the newest picture that was asked for is there, or cannot be.
     #[cfg(test)]
     pub(super) fn is_settled(&self, preview: &Preview) -> bool {
-        self.asked.is_some() && self.engine.busy().is_none() && (preview.failure.is_some() || preview.image.as_ref().is_some_and(|i| i.revision == self.revision))
+        self.asked.is_some()
+            && self.engine.busy().is_none()
+            && (preview.failure.is_some() || preview.image.as_ref().is_some_and(|i| i.revision == self.revision))
     }
 
     /// Asks again for what was asked last.
@@ -148,13 +156,28 @@ impl Feed {
     }
 
     /// Asks for pictures of nodes that have none as they are now. A few at a time, so that newer wishes are not far behind.
-    pub(super) fn ask_thumbnails(&mut self, tab: &Tab, tabs: &[Tab], preview: &Preview, nodes: &[PathBuf], seen: &[String]) {
-        let state = format!("{} {} {}", tab.key().display(), tab.document.structure_revision(), tab.document.value_revision());
-        let stale: Vec<String> = seen.iter().filter(|n| self.thumbnails_for.get(*n) != Some(&state)).take(4).cloned().collect();
+    pub(super) fn ask_thumbnails(
+        &mut self,
+        tab: &Tab,
+        tabs: &[Tab],
+        preview: &Preview,
+        nodes: &[PathBuf],
+        seen: &[String],
+    ) {
+        let state =
+            format!("{} {} {}", tab.key().display(), tab.document.structure_revision(), tab.document.value_revision());
+        let stale: Vec<String> =
+            seen.iter().filter(|n| self.thumbnails_for.get(*n) != Some(&state)).take(4).cloned().collect();
         for node in stale {
             self.thumbnails_for.insert(node.clone(), state.clone());
             let look = Look::Node { graph: tab.key().to_path_buf(), node, port: None };
-            let mut request = self.request(tabs, Show::Stage { shape: crate::studio::Shown::Sphere, graphs: vec![tab.key().to_path_buf()] }, look, preview, nodes);
+            let mut request = self.request(
+                tabs,
+                Show::Stage { shape: crate::studio::Shown::Sphere, graphs: vec![tab.key().to_path_buf()] },
+                look,
+                preview,
+                nodes,
+            );
             (request.size, request.camera, request.samples) = ((SMALL, SMALL), None, 1);
             self.engine.thumbnail(request);
         }
@@ -171,13 +194,9 @@ impl Feed {
     }
 
     /// What links of a graph came to.
-    pub(super) fn wiring_of(&self, key: &Path) -> BTreeMap<(String, String), Vec<Resolved>> {
-        let stem = key.file_stem().map_or_else(String::new, |s| s.to_string_lossy().into_owned());
-        let mut all: BTreeMap<(String, String), Vec<Resolved>> = BTreeMap::new();
-        for wire in self.wiring.iter().filter(|w| w.graph.is_empty() || w.graph == stem) {
-            all.entry((wire.from.0.clone(), wire.to.0.clone())).or_default().push(wire.clone());
-        }
-        all
+    pub(super) fn wiring_of(&self, key: &Path) -> &Wiring {
+        static NONE: Wiring = BTreeMap::new();
+        self.wiring.get(&*key.to_string_lossy()).unwrap_or(&NONE)
     }
 
     /// What is wrong with a graph, by node.
@@ -193,4 +212,14 @@ impl Feed {
         }
         all
     }
+}
+
+fn by_graph(wires: Vec<Resolved>) -> BTreeMap<String, Wiring> {
+    let mut all: BTreeMap<String, Wiring> = BTreeMap::new();
+    // Between graphs there are no links to draw.
+    for wire in wires.into_iter().filter(|w| w.graph == w.from_graph) {
+        let ends = (wire.from.0.clone(), wire.to.0.clone());
+        all.entry(wire.graph.clone()).or_default().entry(ends).or_default().push(wire);
+    }
+    all
 }

@@ -13,7 +13,7 @@ use crate::studio::write;
 
 /// Where the editor keeps things.
 #[derive(Clone, Debug)]
-pub(crate) struct Places {
+pub struct Places {
     config: PathBuf,
     state: PathBuf,
 }
@@ -44,7 +44,17 @@ pub(super) struct Settings {
 
 impl Default for Settings {
     fn default() -> Self {
-        Self { dark: true, scale: 1.0, snap: true, minimap: true, outline: true, bottom: true, side: true, welcomed: false, recent: Vec::new() }
+        Self {
+            dark: true,
+            scale: 1.0,
+            snap: true,
+            minimap: true,
+            outline: true,
+            bottom: true,
+            side: true,
+            welcomed: false,
+            recent: Vec::new(),
+        }
     }
 }
 
@@ -53,15 +63,14 @@ const RECENT: usize = 12;
 
 impl Places {
     /// The places of this system for this person. None where there is no home.
-    pub(crate) fn of_system() -> Option<Self> {
+    pub fn of_system() -> Option<Self> {
         let base = etcetera::choose_base_strategy().ok()?;
         let state = base.state_dir().unwrap_or_else(|| base.cache_dir());
         Some(Self { config: base.config_dir().join("shadetree"), state: state.join("shadetree") })
     }
 
     /// Places in a folder.
-    #[cfg(test)]
-    pub(crate) fn within(folder: &Path) -> Self {
+    pub fn within(folder: &Path) -> Self {
         Self { config: folder.join("config"), state: folder.join("state") }
     }
 
@@ -72,7 +81,8 @@ impl Places {
     /// What was kept. What cannot be read is as if it had never been.
     pub(super) fn settings(&self) -> Settings {
         let mut settings = Settings::default();
-        let Some(json) = std::fs::read(self.settings_file()).ok().and_then(|b| serde_json::from_slice::<Json>(&b).ok()) else {
+        let Some(json) = std::fs::read(self.settings_file()).ok().and_then(|b| serde_json::from_slice::<Json>(&b).ok())
+        else {
             return settings;
         };
         for (name, flag) in settings.flags() {
@@ -154,9 +164,13 @@ impl Recovery {
     }
 
     fn file(&self, key: &Path) -> PathBuf {
-        let readable: String = key.to_string_lossy().chars().map(|c| if c.is_alphanumeric() { c } else { '_' }).collect();
+        let readable: String =
+            key.to_string_lossy().chars().map(|c| if c.is_alphanumeric() { c } else { '_' }).collect();
         let tail: String = readable.chars().rev().take(80).collect::<Vec<_>>().into_iter().rev().collect();
-        let sum = key.to_string_lossy().bytes().fold(0xcbf2_9ce4_8422_2325_u64, |h, b| (h ^ u64::from(b)).wrapping_mul(0x0100_0000_01b3));
+        let sum = key
+            .to_string_lossy()
+            .bytes()
+            .fold(0xcbf2_9ce4_8422_2325_u64, |h, b| (h ^ u64::from(b)).wrapping_mul(0x0100_0000_01b3));
         self.folder.join(format!("{tail}-{sum:016x}.json"))
     }
 
@@ -213,7 +227,10 @@ mod tests {
         second.finish();
         drop(second);
         let (_third, lost) = Recovery::start(&places).expect("started");
-        assert_eq!(lost.iter().map(|l| (l.path.clone(), l.text.as_str())).collect::<Vec<_>>(), [(Some("a.ron".into()), "Graph()")]);
+        assert_eq!(
+            lost.iter().map(|l| (l.path.clone(), l.text.as_str())).collect::<Vec<_>>(),
+            [(Some("a.ron".into()), "Graph()")]
+        );
         discard(&lost);
         let (_fourth, lost) = Recovery::start(&places).expect("started");
         assert!(lost.is_empty());

@@ -38,7 +38,15 @@ const MOST: usize = 200;
 
 impl Finder {
     pub(super) fn new(title: impl Into<String>, at: Option<Pos2>) -> Self {
-        Self { title: title.into(), query: String::new(), at, chosen: 0, fresh: true, shown_for: None, rows: Vec::new() }
+        Self {
+            title: title.into(),
+            query: String::new(),
+            at,
+            chosen: 0,
+            fresh: true,
+            shown_for: None,
+            rows: Vec::new(),
+        }
     }
 
     /// Shows the list; `search` gives the rows for a query, best first.
@@ -84,7 +92,9 @@ impl Finder {
         };
         let shown = window.show(ctx, |ui| {
             let label = ui.strong(&self.title);
-            let field = ui.add(egui::TextEdit::singleline(&mut self.query).hint_text("Search").desired_width(f32::INFINITY)).labelled_by(label.id);
+            let field = ui
+                .add(egui::TextEdit::singleline(&mut self.query).hint_text("Search").desired_width(f32::INFINITY))
+                .labelled_by(label.id);
             if std::mem::take(&mut self.fresh) || !field.has_focus() {
                 field.request_focus();
             }
@@ -116,7 +126,9 @@ impl Finder {
         // A press beside it closes it.
         if let Some(shown) = shown
             && outcome == Outcome::Open
-            && ctx.input(|i| i.pointer.any_pressed() && i.pointer.interact_pos().is_some_and(|p| !shown.response.rect.contains(p)))
+            && ctx.input(|i| {
+                i.pointer.any_pressed() && i.pointer.interact_pos().is_some_and(|p| !shown.response.rect.contains(p))
+            })
         {
             return Outcome::Closed;
         }

@@ -112,14 +112,22 @@ fn node(
                 wishes.push(Wish::Enter(name.to_owned()));
             }
         } else {
-            let combo = egui::ComboBox::from_id_salt("kind").selected_text(&shown).width(190.0).height(360.0).show_ui(ui, |ui| {
-                for kind in &kinds {
-                    let label = catalog.get(kind).and_then(|f| f.header().ok()).map_or_else(String::new, |h| h.label.clone());
-                    if ui.selectable_label(*kind == node.kind, kind).on_hover_text(label).clicked() && *kind != node.kind {
-                        edits.push(Done::step(format!("Swap for {kind}"), swap_kind(graph, catalog, name, kind)));
+            let combo = egui::ComboBox::from_id_salt("kind").selected_text(&shown).width(190.0).height(360.0).show_ui(
+                ui,
+                |ui| {
+                    for kind in &kinds {
+                        let label = catalog
+                            .get(kind)
+                            .and_then(|f| f.header().ok())
+                            .map_or_else(String::new, |h| h.label.clone());
+                        if ui.selectable_label(*kind == node.kind, kind).on_hover_text(label).clicked()
+                            && *kind != node.kind
+                        {
+                            edits.push(Done::step(format!("Swap for {kind}"), swap_kind(graph, catalog, name, kind)));
+                        }
                     }
-                }
-            });
+                },
+            );
             combo.response.labelled_by(label.id).on_hover_text("Another kind in its place; its links stay");
         }
     });
@@ -144,23 +152,29 @@ fn node(
         }
     }
     if !view.known {
-        ui.colored_label(super::theme::Look::of(ui.visuals()).warning, "This kind of node is not known here. It is kept as it is.");
+        ui.colored_label(
+            super::theme::Look::of(ui.visuals()).warning,
+            "This kind of node is not known here. It is kept as it is.",
+        );
     }
     ui.separator();
     for (option, choice) in &view.options {
         ui.horizontal(|ui| {
             let label = ui.label(&option.name).on_hover_text(&option.doc);
-            let combo = egui::ComboBox::from_id_salt(("option", &option.name)).selected_text(choice).show_ui(ui, |ui| {
-                for offered in &option.choices {
-                    if ui.selectable_label(offered == choice, offered).clicked() && offered != choice {
-                        let value = (*offered != option.default).then(|| offered.clone());
-                        let edit = Edit::SetOption { node: name.to_owned(), option: option.name.clone(), value };
-                        edits.push(Done::step(format!("Set {}", option.name), edit));
+            let combo =
+                egui::ComboBox::from_id_salt(("option", &option.name)).selected_text(choice).show_ui(ui, |ui| {
+                    for offered in &option.choices {
+                        if ui.selectable_label(offered == choice, offered).clicked() && offered != choice {
+                            let value = (*offered != option.default).then(|| offered.clone());
+                            let edit = Edit::SetOption { node: name.to_owned(), option: option.name.clone(), value };
+                            edits.push(Done::step(format!("Set {}", option.name), edit));
+                        }
                     }
-                }
-            });
+                });
             combo.response.labelled_by(label.id).on_hover_text(&option.doc);
-            if *choice != option.default && ui.small_button("↺").on_hover_text(format!("Back to {}", option.default)).clicked() {
+            if *choice != option.default
+                && ui.small_button("↺").on_hover_text(format!("Back to {}", option.default)).clicked()
+            {
                 let edit = Edit::SetOption { node: name.to_owned(), option: option.name.clone(), value: None };
                 edits.push(Done::step(format!("Reset {}", option.name), edit));
             }
@@ -177,28 +191,45 @@ fn node(
         ui.separator();
         let label = ui.label("WGSL");
         let mut text = wgsl.clone();
-        let response = ui.add(egui::TextEdit::multiline(&mut text).code_editor().desired_rows(8).desired_width(f32::INFINITY));
+        let response =
+            ui.add(egui::TextEdit::multiline(&mut text).code_editor().desired_rows(8).desired_width(f32::INFINITY));
         if response.labelled_by(label.id).changed() {
             edits.push(Done::part("Edit WGSL", format!("wgsl {name}"), Edit::SetWgsl(name.to_owned(), Some(text))));
         }
     }
     ui.separator();
-    note(ui, "Remark", &node.note, |text| Done::part("Edit remark", format!("note {name}"), Edit::SetNodeNote(name.to_owned(), text)), edits);
+    note(
+        ui,
+        "Remark",
+        &node.note,
+        |text| Done::part("Edit remark", format!("note {name}"), Edit::SetNodeNote(name.to_owned(), text)),
+        edits,
+    );
     if !view.doc.is_empty() {
         ui.collapsing("About", |ui| ui.label(&view.doc));
     }
 }
 
 /// A line for a value: its name, its widget, and the way back to the default.
-pub(super) fn parameter(ui: &mut Ui, node: &str, port: &PortView, shown: &str, edits: &mut Vec<impl From<Parameter>>, wishes: &mut Vec<Wish>) {
-    let about = if port.doc.is_empty() { port.ty.meaning.to_string() } else { format!("{}\n{}", port.doc, port.ty.meaning) };
+pub(super) fn parameter(
+    ui: &mut Ui,
+    node: &str,
+    port: &PortView,
+    shown: &str,
+    edits: &mut Vec<impl From<Parameter>>,
+    wishes: &mut Vec<Wish>,
+) {
+    let about =
+        if port.doc.is_empty() { port.ty.meaning.to_string() } else { format!("{}\n{}", port.doc, port.ty.meaning) };
     let label = ui.horizontal(|ui| {
         let text = if port.value.is_some() { RichText::new(shown).strong() } else { RichText::new(shown) };
         let label = ui.label(text).on_hover_text(about);
         if port.linked {
             ui.weak("linked");
         } else if port.value.is_some() && ui.small_button("↺").on_hover_text("Back to the default").clicked() {
-            edits.push(Parameter { node: node.to_owned(), port: port.name.clone(), value: None, going_on: false }.into());
+            edits.push(
+                Parameter { node: node.to_owned(), port: port.name.clone(), value: None, going_on: false }.into(),
+            );
         } else if let (None, Some(crate::node::Default::Source(source))) = (&port.value, &port.default) {
             ui.weak(format!("from @{source}"));
         }
@@ -210,7 +241,15 @@ pub(super) fn parameter(ui: &mut Ui, node: &str, port: &PortView, shown: &str, e
     ui.indent(("value", node, &port.name), |ui| {
         let changed = values::edit(ui, port, label.inner);
         if let Some(value) = changed.value {
-            edits.push(Parameter { node: node.to_owned(), port: port.name.clone(), value: Some(value), going_on: changed.going_on }.into());
+            edits.push(
+                Parameter {
+                    node: node.to_owned(),
+                    port: port.name.clone(),
+                    value: Some(value),
+                    going_on: changed.going_on,
+                }
+                .into(),
+            );
         }
         if changed.browse {
             wishes.push(Wish::Browse(node.to_owned(), port.name.clone()));
@@ -239,7 +278,8 @@ fn exposing(ui: &mut Ui, tab: &Tab, name: &str, view: &NodeView, edits: &mut Vec
     ui.collapsing("Exposed to outer graphs", |ui| {
         for port in view.inputs.iter().filter(|p| !p.hidden) {
             let end = End::port(name, &port.name);
-            let public = tab.graph().expose.inputs.iter().find(|(_, ends)| ends.contains(&end)).map(|(name, _)| name.clone());
+            let public =
+                tab.graph().expose.inputs.iter().find(|(_, ends)| ends.contains(&end)).map(|(name, _)| name.clone());
             let mut on = public.is_some();
             let shown = match &public {
                 Some(public) if *public != port.name => format!("{} as {public}", port.label),
@@ -270,7 +310,9 @@ fn name_edit(
     let Some((_, draft)) = &mut drafts.name else { return };
     ui.horizontal(|ui| {
         let label = ui.label("Name");
-        let response = ui.add(egui::TextEdit::singleline(draft).desired_width(f32::INFINITY).id(Id::new("node name"))).labelled_by(label.id);
+        let response = ui
+            .add(egui::TextEdit::singleline(draft).desired_width(f32::INFINITY).id(Id::new("node name")))
+            .labelled_by(label.id);
         if std::mem::take(&mut drafts.focus_name) {
             response.request_focus();
         }
@@ -315,7 +357,13 @@ fn link(ui: &mut Ui, tab: &Tab, from: &End, to: &End, edits: &mut Vec<Done>) {
     }
     if let Some(link) = tab.graph().links.iter().find(|l| l.from == *from && l.to == *to) {
         let key = format!("note {from} -> {to}");
-        note(ui, "Remark", &link.note, |text| Done::part("Edit remark", key.clone(), Edit::SetLinkNote(from.clone(), to.clone(), text)), edits);
+        note(
+            ui,
+            "Remark",
+            &link.note,
+            |text| Done::part("Edit remark", key.clone(), Edit::SetLinkNote(from.clone(), to.clone(), text)),
+            edits,
+        );
     }
 }
 
@@ -329,13 +377,25 @@ fn frame_edit(ui: &mut Ui, tab: &Tab, name: &str, edits: &mut Vec<Done>) {
         edits.push(Done::part("Rename frame", "rename frame".into(), Edit::RenameFrame(name.to_owned(), title)));
     }
     let set = |frame: crate::graph::Frame| Edit::SetFrame(name.to_owned(), Some(Box::new(frame)));
-    note(ui, "Text", &frame.text, |text| Done::part("Edit comment", format!("frame text {name}"), set(crate::graph::Frame { text, ..frame.clone() })), edits);
+    note(
+        ui,
+        "Text",
+        &frame.text,
+        |text| {
+            Done::part("Edit comment", format!("frame text {name}"), set(crate::graph::Frame { text, ..frame.clone() }))
+        },
+        edits,
+    );
     ui.horizontal(|ui| {
         ui.label("Colour");
         let mut rgb = frame.color.unwrap_or([0.3; 3]).map(|c| super::preview::narrow(c));
         if ui.color_edit_button_rgb(&mut rgb).changed() {
             let color = Some(rgb.map(|c| (f64::from(c) * 1e3).round() / 1e3));
-            edits.push(Done::part("Colour frame", format!("frame color {name}"), set(crate::graph::Frame { color, ..frame.clone() })));
+            edits.push(Done::part(
+                "Colour frame",
+                format!("frame color {name}"),
+                set(crate::graph::Frame { color, ..frame.clone() }),
+            ));
         }
         if ui.button("Remove frame").clicked() {
             edits.push(Done::step("Remove frame", Edit::SetFrame(name.to_owned(), None)));
@@ -344,7 +404,14 @@ fn frame_edit(ui: &mut Ui, tab: &Tab, name: &str, edits: &mut Vec<Done>) {
 }
 
 /// The graph itself, and the values that it exposes.
-fn graph(ui: &mut Ui, tab: &mut Tab, catalog: &Catalog, subgraphs: Subgraphs<'_>, edits: &mut Vec<Done>, wishes: &mut Vec<Wish>) {
+fn graph(
+    ui: &mut Ui,
+    tab: &mut Tab,
+    catalog: &Catalog,
+    subgraphs: Subgraphs<'_>,
+    edits: &mut Vec<Done>,
+    wishes: &mut Vec<Wish>,
+) {
     let graph = tab.document.graph();
     let label = ui.label("Title of the graph");
     let mut title = graph.name.clone();

@@ -75,7 +75,8 @@ mod tests {
 
     #[test]
     fn paths_are_made_plain() {
-        for (path, expected) in [("a/../b.ron", "b.ron"), ("./a/./b", "a/b"), ("../a", "../a"), ("/x/y/../../z", "/z")] {
+        for (path, expected) in [("a/../b.ron", "b.ron"), ("./a/./b", "a/b"), ("../a", "../a"), ("/x/y/../../z", "/z")]
+        {
             assert_eq!(plain(Path::new(path)), PathBuf::from(expected), "{path}");
         }
     }

@@ -59,7 +59,8 @@ impl Editor {
     /// Shows what is wrong with a file that cannot be opened.
     fn refuse(&mut self, path: &Path, found: Vec<Diagnostic>) {
         let first = found.first().map_or_else(String::new, |d| {
-            let place = d.place.span.as_ref().map(|s| s.line_column()).map_or_else(String::new, |(l, c)| format!("{l}:{c}: "));
+            let place =
+                d.place.span.as_ref().map(|s| s.line_column()).map_or_else(String::new, |(l, c)| format!("{l}:{c}: "));
             format!("{place}{}", d.message)
         });
         self.say(format!("cannot open {}: {first}", path.display()));
@@ -213,7 +214,10 @@ impl Editor {
             } else if let Some(tab) = self.tabs.iter_mut().find(|t| t.path.as_ref() == Some(&path)) {
                 // Said once; the graph stays as it was.
                 tab.on_disk = Some(text);
-                self.say(format!("{} was changed on disk, but cannot be read as a graph; the last good one stays", path.display()));
+                self.say(format!(
+                    "{} was changed on disk, but cannot be read as a graph; the last good one stays",
+                    path.display()
+                ));
             }
         }
     }
@@ -388,7 +392,10 @@ fn read(path: &Path, text: &str) -> Result<(Graph, Vec<Diagnostic>), Vec<Diagnos
 }
 
 fn is_scene(text: &str) -> bool {
-    text.lines().map(str::trim_start).find(|l| !l.is_empty() && !l.starts_with("//")).is_some_and(|l| l.starts_with("Scene"))
+    text.lines()
+        .map(str::trim_start)
+        .find(|l| !l.is_empty() && !l.starts_with("//"))
+        .is_some_and(|l| l.starts_with("Scene"))
 }
 
 /// A path as a file in `folder` mentions it: with `/`, and from there where that is short.

@@ -4,7 +4,9 @@ use std::collections::BTreeSet;
 use std::path::PathBuf;
 use std::time::Duration;
 
-use eframe::egui::{self, Align2, Color32, FontId, PointerButton, Pos2, Rect, Sense, Stroke, StrokeKind, Ui, pos2, vec2};
+use eframe::egui::{
+    self, Align2, Color32, FontId, PointerButton, Pos2, Rect, Sense, Stroke, StrokeKind, Ui, pos2, vec2,
+};
 use glam::{Vec2, Vec3};
 
 use super::canvas::Subgraphs;
@@ -148,7 +150,10 @@ impl Preview {
     /// Where the picture lies: its shape is kept while the panel changes.
     fn picture_rect(&self, rect: Rect) -> Rect {
         let Some(image) = &self.image else { return rect };
-        let size = vec2(f32::from(u16::try_from(image.size.0).unwrap_or(1)), f32::from(u16::try_from(image.size.1).unwrap_or(1)));
+        let size = vec2(
+            f32::from(u16::try_from(image.size.0).unwrap_or(1)),
+            f32::from(u16::try_from(image.size.1).unwrap_or(1)),
+        );
         let scale = (rect.width() / size.x).min(rect.height() / size.y);
         Rect::from_center_size(rect.center(), size * scale)
     }
@@ -156,39 +161,48 @@ impl Preview {
     fn controls(&mut self, ui: &mut Ui, wishes: &mut Vec<Wish>) {
         ui.horizontal_wrapped(|ui| {
             let label = ui.label("Look at");
-            let combo = egui::ComboBox::from_id_salt("look").selected_text(name_of(&self.look)).width(150.0).show_ui(ui, |ui| {
-                for look in self.looks() {
-                    let name = name_of(&look);
-                    if ui.selectable_label(look == self.look, name).clicked() {
-                        self.look = look;
+            let combo = egui::ComboBox::from_id_salt("look").selected_text(name_of(&self.look)).width(150.0).show_ui(
+                ui,
+                |ui| {
+                    for look in self.looks() {
+                        let name = name_of(&look);
+                        if ui.selectable_label(look == self.look, name).clicked() {
+                            self.look = look;
+                        }
                     }
-                }
-            });
+                },
+            );
             combo.response.labelled_by(label.id);
             let label = ui.label("on");
-            let combo = egui::ComboBox::from_id_salt("shape").selected_text(self.shape_name()).width(100.0).show_ui(ui, |ui| {
-                for (name, shape) in shapes() {
-                    if ui.selectable_label(self.scene.is_none() && self.shape == shape, name).clicked() {
-                        (self.shape, self.scene, self.camera) = (shape, None, None);
+            let combo =
+                egui::ComboBox::from_id_salt("shape").selected_text(self.shape_name()).width(100.0).show_ui(ui, |ui| {
+                    for (name, shape) in shapes() {
+                        if ui.selectable_label(self.scene.is_none() && self.shape == shape, name).clicked() {
+                            (self.shape, self.scene, self.camera) = (shape, None, None);
+                        }
                     }
-                }
-                if ui.selectable_label(false, "Model…").clicked() {
-                    wishes.push(Wish::OpenModel);
-                }
-                if ui.selectable_label(self.scene.is_some(), "Scene…").clicked() {
-                    wishes.push(Wish::OpenScene);
-                }
-            });
+                    if ui.selectable_label(false, "Model…").clicked() {
+                        wishes.push(Wish::OpenModel);
+                    }
+                    if ui.selectable_label(self.scene.is_some(), "Scene…").clicked() {
+                        wishes.push(Wish::OpenScene);
+                    }
+                });
             combo.response.labelled_by(label.id);
             let label = ui.label("Scale");
-            let combo = egui::ComboBox::from_id_salt("coarse").selected_text(format!("1/{}", self.coarse)).width(46.0).show_ui(ui, |ui| {
-                for coarse in [1.0, 2.0, 4.0] {
-                    ui.selectable_value(&mut self.coarse, coarse, format!("1/{coarse}"));
-                }
-            });
+            let combo = egui::ComboBox::from_id_salt("coarse")
+                .selected_text(format!("1/{}", self.coarse))
+                .width(46.0)
+                .show_ui(ui, |ui| {
+                    for coarse in [1.0, 2.0, 4.0] {
+                        ui.selectable_value(&mut self.coarse, coarse, format!("1/{coarse}"));
+                    }
+                });
             combo.response.labelled_by(label.id);
             ui.toggle_value(&mut self.paused, "Pause");
-            if ui.toggle_value(&mut self.plays, "Play").on_hover_text("Lets time go on for animated nodes").changed() && !self.plays {
+            if ui.toggle_value(&mut self.plays, "Play").on_hover_text("Lets time go on for animated nodes").changed()
+                && !self.plays
+            {
                 self.time = 0.0;
             }
             if ui.add_enabled(self.camera.is_some(), egui::Button::new("Reset view")).clicked() {
@@ -227,7 +241,10 @@ impl Preview {
         let before = camera;
         let delta = response.drag_delta();
         let shift = ui.input(|i| i.modifiers.shift);
-        if response.dragged_by(PointerButton::Middle) || response.dragged_by(PointerButton::Secondary) || (shift && response.dragged_by(PointerButton::Primary)) {
+        if response.dragged_by(PointerButton::Middle)
+            || response.dragged_by(PointerButton::Secondary)
+            || (shift && response.dragged_by(PointerButton::Primary))
+        {
             pan(&mut camera, delta / rect.height());
         } else if response.dragged_by(PointerButton::Primary) {
             orbit(&mut camera, delta / rect.height());
@@ -239,8 +256,10 @@ impl Preview {
         if response.has_focus() {
             let step = |key| ui.input(|i| i.key_pressed(key));
             let turn = |on: bool, x: f32, y: f32| if on { vec2(x, y) } else { vec2(0.0, 0.0) };
-            let by = turn(step(egui::Key::ArrowLeft), -0.05, 0.0) + turn(step(egui::Key::ArrowRight), 0.05, 0.0)
-                + turn(step(egui::Key::ArrowUp), 0.0, -0.05) + turn(step(egui::Key::ArrowDown), 0.0, 0.05);
+            let by = turn(step(egui::Key::ArrowLeft), -0.05, 0.0)
+                + turn(step(egui::Key::ArrowRight), 0.05, 0.0)
+                + turn(step(egui::Key::ArrowUp), 0.0, -0.05)
+                + turn(step(egui::Key::ArrowDown), 0.0, 0.05);
             orbit(&mut camera, by);
         }
         if response.double_clicked() {
@@ -251,7 +270,15 @@ impl Preview {
     }
 
     /// Handles of the lights; true while one is held.
-    fn lights(&mut self, ui: &Ui, tab: &mut Tab, catalog: &Catalog, subgraphs: Subgraphs<'_>, picture: Rect, response: &egui::Response) -> bool {
+    fn lights(
+        &mut self,
+        ui: &Ui,
+        tab: &mut Tab,
+        catalog: &Catalog,
+        subgraphs: Subgraphs<'_>,
+        picture: Rect,
+        response: &egui::Response,
+    ) -> bool {
         let Some(image) = &self.image else { return false };
         if !matches!(self.look, Look::Output(_)) {
             return false;
@@ -259,7 +286,8 @@ impl Preview {
         let camera = image.camera;
         let theme = Theme::of(ui.visuals());
         let graph = tab.document.graph();
-        let lights: Vec<String> = graph.nodes.iter().filter(|(_, n)| n.kind.ends_with("_light")).map(|(n, _)| n.clone()).collect();
+        let lights: Vec<String> =
+            graph.nodes.iter().filter(|(_, n)| n.kind.ends_with("_light")).map(|(n, _)| n.clone()).collect();
         let pointer = response.hover_pos().or_else(|| response.interact_pointer_pos());
         let mut near = None;
         for name in lights {
@@ -269,11 +297,23 @@ impl Preview {
             let [x, y, z] = n[..] else { continue };
             let place = Vec3::new(narrow(x), narrow(y), narrow(z));
             let Some((spot, depth)) = project(&camera, place, picture) else { continue };
-            let hot = pointer.is_some_and(|p| (p - spot).length() < 12.0) || self.held_light.as_ref().is_some_and(|(n, _)| *n == name);
+            let hot = pointer.is_some_and(|p| (p - spot).length() < 12.0)
+                || self.held_light.as_ref().is_some_and(|(n, _)| *n == name);
             if picture.contains(spot) {
-                ui.painter().circle(spot, if hot { 9.0 } else { 6.0 }, Color32::from_rgb(0xf2, 0xb8, 0x3d), Stroke::new(1.5, Color32::BLACK));
+                ui.painter().circle(
+                    spot,
+                    if hot { 9.0 } else { 6.0 },
+                    Color32::from_rgb(0xf2, 0xb8, 0x3d),
+                    Stroke::new(1.5, Color32::BLACK),
+                );
                 if hot {
-                    ui.painter().text(spot + vec2(12.0, 0.0), Align2::LEFT_CENTER, &name, FontId::proportional(13.0), theme.selected);
+                    ui.painter().text(
+                        spot + vec2(12.0, 0.0),
+                        Align2::LEFT_CENTER,
+                        &name,
+                        FontId::proportional(13.0),
+                        theme.selected,
+                    );
                 }
             }
             if hot && near.is_none() {
@@ -328,7 +368,10 @@ impl Preview {
             }
             if let Some(image) = &self.image {
                 let software = if image.software { " (software)" } else { "" };
-                let text = format!("{} × {}, {:.0} ms on {}{software}", image.size.0, image.size.1, image.milliseconds, image.adapter);
+                let text = format!(
+                    "{} × {}, {:.0} ms on {}{software}",
+                    image.size.0, image.size.1, image.milliseconds, image.adapter
+                );
                 ui.add(egui::Label::new(egui::RichText::new(text).weak().small()).truncate());
             } else {
                 ui.weak("No picture yet.");
@@ -338,7 +381,13 @@ impl Preview {
 }
 
 fn shapes() -> [(&'static str, Shown); 5] {
-    [("Ball", Shown::Sphere), ("Cube", Shown::Cube), ("Plane", Shown::Plane), ("Cylinder", Shown::Cylinder), ("Torus", Shown::Torus)]
+    [
+        ("Ball", Shown::Sphere),
+        ("Cube", Shown::Cube),
+        ("Plane", Shown::Plane),
+        ("Cylinder", Shown::Cylinder),
+        ("Torus", Shown::Torus),
+    ]
 }
 
 /// What a way to look is called.
@@ -423,7 +472,14 @@ mod tests {
     use super::*;
 
     fn camera() -> Camera {
-        Camera { position: Vec3::new(1.0, 2.0, 5.0), target: Vec3::new(0.0, 0.5, 0.0), up: Vec3::Y, fov_y: 0.6, near: 0.1, far: 100.0 }
+        Camera {
+            position: Vec3::new(1.0, 2.0, 5.0),
+            target: Vec3::new(0.0, 0.5, 0.0),
+            up: Vec3::Y,
+            fov_y: 0.6,
+            near: 0.1,
+            far: 100.0,
+        }
     }
 
     #[test]

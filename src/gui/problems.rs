@@ -22,7 +22,11 @@ pub(super) fn show(ui: &mut Ui, found: &[Diagnostic]) -> Option<Diagnostic> {
             ui.horizontal_wrapped(|ui| {
                 ui.colored_label(color, mark);
                 let place = place_of(diagnostic);
-                if ui.link(if place.is_empty() { diagnostic.code.to_owned() } else { place }).on_hover_text(explained(diagnostic)).clicked() {
+                if ui
+                    .link(if place.is_empty() { diagnostic.code.to_owned() } else { place })
+                    .on_hover_text(explained(diagnostic))
+                    .clicked()
+                {
                     wanted = Some(diagnostic.clone());
                 }
                 ui.label(&diagnostic.message);

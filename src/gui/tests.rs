@@ -24,13 +24,25 @@ impl Bench {
 
     fn within(folder: tempfile::TempDir, files: &[&str]) -> Self {
         let places = Places::within(folder.path());
-        let files: Vec<PathBuf> = files.iter().map(|f| Path::new(env!("CARGO_MANIFEST_DIR")).join("graphs").join(f)).map(|from| {
-            let to = folder.path().join(from.file_name().expect("a file"));
-            std::fs::copy(&from, &to).expect("an example");
-            to
-        }).collect();
+        let files: Vec<PathBuf> = files
+            .iter()
+            .map(|f| Path::new(env!("CARGO_MANIFEST_DIR")).join("graphs").join(f))
+            .map(|from| {
+                let to = folder.path().join(from.file_name().expect("a file"));
+                std::fs::copy(&from, &to).expect("an example");
+                to
+            })
+            .collect();
         let adapter = AdapterOptions { choice: AdapterChoice::Cpu, backends: None };
-        let options = Options { files, scene: None, nodes: Vec::new(), catalog: Catalog::embedded(), adapter, places: Some(places) };
+        let options = Options {
+            files,
+            scene: None,
+            nodes: Vec::new(),
+            catalog: Catalog::embedded(),
+            adapter,
+            places: Some(places),
+            paused: false,
+        };
         let harness = Harness::builder().with_size(vec2(1280.0, 800.0)).with_max_steps(30).build_eframe(move |cc| {
             let mut editor = Editor::new(&cc.egui_ctx, options);
             editor.settings.welcomed = true;
@@ -88,7 +100,12 @@ impl Bench {
 
     fn press(&mut self, pos: Pos2, pressed: bool) {
         self.harness.event(Event::PointerMoved(pos));
-        self.harness.event(Event::PointerButton { pos, button: PointerButton::Primary, pressed, modifiers: Modifiers::NONE });
+        self.harness.event(Event::PointerButton {
+            pos,
+            button: PointerButton::Primary,
+            pressed,
+            modifiers: Modifiers::NONE,
+        });
         self.steps(1);
     }
 
@@ -115,7 +132,9 @@ impl Bench {
     fn node_of_kind(&self, kind: &str) -> String {
         let graph = self.harness.state().document().expect("a document").graph();
         let found = graph.nodes.iter().find(|(_, n)| n.kind == kind).map(|(name, _)| name.clone());
-        found.unwrap_or_else(|| panic!("no {kind} among {:?}", graph.nodes.values().map(|n| &n.kind).collect::<Vec<_>>()))
+        found.unwrap_or_else(|| {
+            panic!("no {kind} among {:?}", graph.nodes.values().map(|n| &n.kind).collect::<Vec<_>>())
+        })
     }
 
     fn picture(&mut self) -> Vec<u8> {
@@ -156,7 +175,8 @@ fn a_glass_under_a_shadowed_lamp_is_built_from_nothing_and_taken_back() {
     bench.drag(from, to);
     bench.pick("glass");
     let glass = bench.node_of_kind("glass");
-    let links: Vec<String> = bench.harness.state().document().expect("a document").graph().links.iter().map(ToString::to_string).collect();
+    let links: Vec<String> =
+        bench.harness.state().document().expect("a document").graph().links.iter().map(ToString::to_string).collect();
     assert_eq!(links, [format!("{shadow} -> {glass}"), format!("{spot} -> {shadow}")]);
     let picture = bench.picture();
     assert!(bench.harness.state().feed.found.is_empty(), "{:?}", bench.harness.state().feed.found);
@@ -239,7 +259,8 @@ fn copies_paste_as_text_and_deleting_heals() {
 fn muting_renaming_and_collapsing_are_in_the_document() {
     let mut bench = Bench::new(&["surfaces/marble.ron"]);
     let before = bench.document();
-    let node = bench.harness.state().document().expect("a document").graph().nodes.keys().next().expect("a node").clone();
+    let node =
+        bench.harness.state().document().expect("a document").graph().nodes.keys().next().expect("a node").clone();
     bench.harness.state_mut().go_to(&node);
     bench.steps(2);
     bench.key(Modifiers::NONE, Key::M);

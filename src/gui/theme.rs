@@ -68,9 +68,13 @@ pub(super) fn mark(mark: Mark, at: Pos2, radius: f32, fill: Color32, stroke: Str
     let corners = |list: &[(f32, f32)]| list.iter().map(|(x, y)| at + Vec2::new(*x, *y) * radius).collect();
     match mark {
         Mark::Circle => Shape::Circle(egui::epaint::CircleShape { center: at, radius, fill, stroke }),
-        Mark::Diamond => Shape::convex_polygon(corners(&[(0.0, -1.25), (1.25, 0.0), (0.0, 1.25), (-1.25, 0.0)]), fill, stroke),
+        Mark::Diamond => {
+            Shape::convex_polygon(corners(&[(0.0, -1.25), (1.25, 0.0), (0.0, 1.25), (-1.25, 0.0)]), fill, stroke)
+        }
         Mark::Triangle => Shape::convex_polygon(corners(&[(-0.95, -1.1), (1.2, 0.0), (-0.95, 1.1)]), fill, stroke),
-        Mark::Square => Shape::convex_polygon(corners(&[(-0.95, -0.95), (0.95, -0.95), (0.95, 0.95), (-0.95, 0.95)]), fill, stroke),
+        Mark::Square => {
+            Shape::convex_polygon(corners(&[(-0.95, -0.95), (0.95, -0.95), (0.95, 0.95), (-0.95, 0.95)]), fill, stroke)
+        }
     }
 }
 

@@ -39,7 +39,9 @@ fn blank(shape: &Shape) -> Option<Value> {
         Shape::Bool => Value::Bool(false),
         Shape::I32 | Shape::U32 => Value::Numbers(vec![0.0]),
         Shape::F32(n) => Value::Numbers(vec![0.0; usize::from(*n)]),
-        Shape::Matrix(n) => Value::Numbers((0..usize::from(*n).pow(2)).map(|i| f64::from(u8::from(i % (usize::from(*n) + 1) == 0))).collect()),
+        Shape::Matrix(n) => Value::Numbers(
+            (0..usize::from(*n).pow(2)).map(|i| f64::from(u8::from(i % (usize::from(*n) + 1) == 0))).collect(),
+        ),
         Shape::Generic => Value::Numbers(vec![0.0]),
         Shape::Texture => Value::Text(String::new()),
         Shape::DepthTexture | Shape::Sampler | Shape::ComparisonSampler | Shape::Named(_) => return None,
@@ -68,7 +70,9 @@ pub(super) fn edit(ui: &mut Ui, port: &PortView, label: Id) -> Changed {
         Value::Text(text) => {
             ui.horizontal(|ui| {
                 let room = ui.available_width() - 34.0;
-                let response = ui.add(egui::TextEdit::singleline(text).desired_width(room).hint_text("path of a picture")).labelled_by(label);
+                let response = ui
+                    .add(egui::TextEdit::singleline(text).desired_width(room).hint_text("path of a picture"))
+                    .labelled_by(label);
                 if response.changed() {
                     changed.value = Some(Value::Text(text.clone()));
                     changed.going_on = true;
@@ -117,12 +121,17 @@ fn numbers_edit(ui: &mut Ui, port: &PortView, numbers: &mut [f64], label: Id, go
             ui.spacing_mut().item_spacing.x = 3.0;
             for (i, x) in chunk.iter_mut().enumerate() {
                 let speed = if whole { 0.1 } else { (x.abs() * 0.01).clamp(0.002, 10.0) };
-                let mut drag = DragValue::new(x).range(range.clone()).speed(speed).max_decimals(if whole { 0 } else { 5 });
+                let mut drag =
+                    DragValue::new(x).range(range.clone()).speed(speed).max_decimals(if whole { 0 } else { 5 });
                 if columns == 1 {
                     drag = drag.suffix(&suffix);
                 }
                 let response = ui.add(drag).labelled_by(label);
-                let response = if columns > 1 { response.on_hover_text(axis(row * columns + i, columns, &suffix)) } else { response };
+                let response = if columns > 1 {
+                    response.on_hover_text(axis(row * columns + i, columns, &suffix))
+                } else {
+                    response
+                };
                 *going_on |= response.dragged() || response.has_focus();
                 changed |= response.changed();
             }
@@ -153,7 +162,8 @@ fn color_edit(ui: &mut Ui, numbers: &mut [f64], label: Id, going_on: &mut bool) 
             *going_on = true;
         }
         for x in numbers.iter_mut() {
-            let response = ui.add(DragValue::new(x).range(0.0..=f64::INFINITY).speed(0.005).max_decimals(3)).labelled_by(label);
+            let response =
+                ui.add(DragValue::new(x).range(0.0..=f64::INFINITY).speed(0.005).max_decimals(3)).labelled_by(label);
             *going_on |= response.dragged() || response.has_focus();
             changed |= response.changed();
         }

@@ -54,14 +54,17 @@ impl Editor {
                 view::find(&self.catalog, query, fit.as_ref()).into_iter().map(row).collect()
             }
             Wanted::Insert { link: (from, to), .. } => {
-                let fits = |kind: &str| view::insert_on_link(graph, &self.catalog, from, to, Insert::Kind(kind), [0.0; 2]).is_some();
+                let fits = |kind: &str| {
+                    view::insert_on_link(graph, &self.catalog, from, to, Insert::Kind(kind), [0.0; 2]).is_some()
+                };
                 view::find(&self.catalog, query, None).into_iter().filter(|hit| fits(&hit.kind)).map(row).collect()
             }
             Wanted::Swap(node) => {
                 let kinds = view::compatible_kinds(graph, &self.catalog, node);
                 let hits = view::find(&self.catalog, query, None);
                 let place = |kind: &str| kinds.iter().position(|k| k == kind);
-                let mut fitting: Vec<(usize, Hit)> = hits.into_iter().filter_map(|h| Some((place(&h.kind)?, h))).collect();
+                let mut fitting: Vec<(usize, Hit)> =
+                    hits.into_iter().filter_map(|h| Some((place(&h.kind)?, h))).collect();
                 if query.is_empty() {
                     fitting.sort_by_key(|(i, _)| *i);
                 }
@@ -69,15 +72,32 @@ impl Editor {
             }
             Wanted::Find => {
                 let query = query.to_lowercase();
-                let named = graph.nodes.iter().filter(|(name, node)| name.to_lowercase().contains(&query) || node.kind.contains(&query));
-                named.map(|(name, node)| Row { value: name.clone(), title: name.clone(), aside: node.kind.clone(), about: node.note.clone() }).collect()
+                let named = graph
+                    .nodes
+                    .iter()
+                    .filter(|(name, node)| name.to_lowercase().contains(&query) || node.kind.contains(&query));
+                named
+                    .map(|(name, node)| Row {
+                        value: name.clone(),
+                        title: name.clone(),
+                        aside: node.kind.clone(),
+                        about: node.note.clone(),
+                    })
+                    .collect()
             }
             Wanted::Command => {
                 let query = query.to_lowercase();
-                let fits = |c: &&Command| c.label().to_lowercase().contains(&query) || c.help().to_lowercase().contains(&query);
+                let fits = |c: &&Command| {
+                    c.label().to_lowercase().contains(&query) || c.help().to_lowercase().contains(&query)
+                };
                 let mut rows: Vec<Row> = Vec::new();
                 for (i, command) in Command::ALL.iter().enumerate().filter(|(_, c)| fits(c)) {
-                    rows.push(Row { value: i.to_string(), title: command.label().into(), aside: String::new(), about: command.help().into() });
+                    rows.push(Row {
+                        value: i.to_string(),
+                        title: command.label().into(),
+                        aside: String::new(),
+                        about: command.help().into(),
+                    });
                 }
                 rows.sort_by_key(|r| !r.title.to_lowercase().starts_with(&query));
                 rows
@@ -89,12 +109,19 @@ impl Editor {
         let Some(tab) = self.tab() else { return };
         let graph = tab.graph();
         let (label, made) = match wanted {
-            Wanted::Add { at, wire: Some(wire) } => (format!("Add {value}"), view::add_linked(graph, &self.catalog, value, *at, wire)),
-            Wanted::Add { at, wire: None } => (format!("Add {value}"), Some(view::add(graph, &self.catalog, value, *at))),
-            Wanted::Insert { link: (from, to), at } => {
-                (format!("Insert {value}"), view::insert_on_link(graph, &self.catalog, from, to, Insert::Kind(value), *at))
+            Wanted::Add { at, wire: Some(wire) } => {
+                (format!("Add {value}"), view::add_linked(graph, &self.catalog, value, *at, wire))
             }
-            Wanted::Swap(node) => (format!("Swap for {value}"), Some((view::swap_kind(graph, &self.catalog, node, value), node.clone()))),
+            Wanted::Add { at, wire: None } => {
+                (format!("Add {value}"), Some(view::add(graph, &self.catalog, value, *at)))
+            }
+            Wanted::Insert { link: (from, to), at } => (
+                format!("Insert {value}"),
+                view::insert_on_link(graph, &self.catalog, from, to, Insert::Kind(value), *at),
+            ),
+            Wanted::Swap(node) => {
+                (format!("Swap for {value}"), Some((view::swap_kind(graph, &self.catalog, node, value), node.clone())))
+            }
             Wanted::Find => return self.go_to(value),
             Wanted::Command => {
                 if let Some(command) = value.parse::<usize>().ok().and_then(|i| Command::ALL.get(i)) {
@@ -121,36 +148,68 @@ impl Editor {
         let mut run = None;
         let mut wish = None;
         let mut open = true;
-        let shown = egui::Area::new(Id::new("canvas menu")).order(egui::Order::Foreground).fixed_pos(at).constrain(true).show(ctx, |ui| {
-            egui::Frame::menu(ui.style()).show(ui, |ui| {
-                ui.set_max_width(240.0);
-                ui.with_layout(egui::Layout::top_down_justified(egui::Align::LEFT), |ui| {
-                    let offered: &[Command] = match &target {
-                        Target::Plane(_) => &[Command::Add, Command::Paste, Command::Frame, Command::SelectAll, Command::ArrangeAll, Command::FrameAll],
-                        Target::Node(_) => &[
-                            Command::Swap, Command::Mute, Command::Collapse, Command::SetOutput, Command::Look, Command::Rename, Command::Duplicate,
-                            Command::Copy, Command::Cut, Command::Delete, Command::DeleteHeal, Command::Frame, Command::Subgraph, Command::Enter, Command::NodeHelp,
-                        ],
-                        Target::Link(..) => &[Command::Pin, Command::Bend, Command::Delete],
-                        Target::Frame(_) => &[Command::Delete],
-                    };
-                    if let Target::Link(from, to) = &target
-                        && ui.button("Insert node…").clicked()
-                    {
-                        let middle = self.tab().map(|t| super::canvas::position(t.camera.center + (at - self.canvas.center()) / t.camera.zoom));
-                        wish = Some(Wish::Insert { link: (from.clone(), to.clone()), at: middle.unwrap_or_default(), screen: at });
-                    }
-                    for command in offered {
-                        let keys = command.keys().first().map_or_else(String::new, |k| ctx.format_shortcut(k));
-                        let button = egui::Button::new(command.label()).shortcut_text(keys);
-                        if ui.add_enabled(self.can(*command), button).on_hover_text(command.help()).clicked() {
-                            run = Some(*command);
+        let shown = egui::Area::new(Id::new("canvas menu"))
+            .order(egui::Order::Foreground)
+            .fixed_pos(at)
+            .constrain(true)
+            .show(ctx, |ui| {
+                egui::Frame::menu(ui.style()).show(ui, |ui| {
+                    ui.set_max_width(240.0);
+                    ui.with_layout(egui::Layout::top_down_justified(egui::Align::LEFT), |ui| {
+                        let offered: &[Command] = match &target {
+                            Target::Plane(_) => &[
+                                Command::Add,
+                                Command::Paste,
+                                Command::Frame,
+                                Command::SelectAll,
+                                Command::ArrangeAll,
+                                Command::FrameAll,
+                            ],
+                            Target::Node(_) => &[
+                                Command::Swap,
+                                Command::Mute,
+                                Command::Collapse,
+                                Command::SetOutput,
+                                Command::Look,
+                                Command::Rename,
+                                Command::Duplicate,
+                                Command::Copy,
+                                Command::Cut,
+                                Command::Delete,
+                                Command::DeleteHeal,
+                                Command::Frame,
+                                Command::Subgraph,
+                                Command::Enter,
+                                Command::NodeHelp,
+                            ],
+                            Target::Link(..) => &[Command::Pin, Command::Bend, Command::Delete],
+                            Target::Frame(_) => &[Command::Delete],
+                        };
+                        if let Target::Link(from, to) = &target
+                            && ui.button("Insert node…").clicked()
+                        {
+                            let middle = self.tab().map(|t| {
+                                super::canvas::position(t.camera.center + (at - self.canvas.center()) / t.camera.zoom)
+                            });
+                            wish = Some(Wish::Insert {
+                                link: (from.clone(), to.clone()),
+                                at: middle.unwrap_or_default(),
+                                screen: at,
+                            });
                         }
-                    }
-                });
-            })
+                        for command in offered {
+                            let keys = command.keys().first().map_or_else(String::new, |k| ctx.format_shortcut(k));
+                            let button = egui::Button::new(command.label()).shortcut_text(keys);
+                            if ui.add_enabled(self.can(*command), button).on_hover_text(command.help()).clicked() {
+                                run = Some(*command);
+                            }
+                        }
+                    });
+                })
+            });
+        let outside = ctx.input(|i| {
+            i.pointer.any_pressed() && i.pointer.interact_pos().is_some_and(|p| !shown.response.rect.contains(p))
         });
-        let outside = ctx.input(|i| i.pointer.any_pressed() && i.pointer.interact_pos().is_some_and(|p| !shown.response.rect.contains(p)));
         if run.is_some() || wish.is_some() || outside || ctx.input(|i| i.key_pressed(egui::Key::Escape)) {
             open = false;
         }

@@ -33,7 +33,7 @@ pub struct PortView {
 }
 
 /// A node as a card shows it.
-#[derive(Clone, Debug)]
+#[derive(Default, Clone, Debug)]
 pub struct NodeView {
     /// Its name in the graph.
     pub name: String,

@@ -116,7 +116,10 @@ mod tests {
 
     #[test]
     fn there_and_back() {
-        let view = View { camera: Camera { center: pos2(5.0, 6.0), zoom: 2.0 }, screen: Rect::from_min_size(pos2(10.0, 10.0), vec2(80.0, 60.0)) };
+        let view = View {
+            camera: Camera { center: pos2(5.0, 6.0), zoom: 2.0 },
+            screen: Rect::from_min_size(pos2(10.0, 10.0), vec2(80.0, 60.0)),
+        };
         let p = pos2(7.5, -3.0);
         assert!((view.to_plane(view.to_screen(p)) - p).length() < 1e-4);
         assert!(view.seen().contains(view.camera.center));

@@ -32,14 +32,24 @@ pub(in crate::gui) struct Cards {
     sizes: BTreeMap<String, Vec2>,
     auto: BTreeMap<String, [f64; 2]>,
     views: BTreeMap<String, Arc<NodeView>>,
+    /// Where cards lie, at one revision of the document.
+    rects: BTreeMap<String, Rect>,
+    revision: Option<u64>,
 }
 
 impl Cards {
     /// Brings sizes and places up to date with the document.
-    pub(in crate::gui) fn refresh(&mut self, document: &Document, catalog: &Catalog, subgraphs: Subgraphs<'_>, thumbnails: bool) {
+    pub(in crate::gui) fn refresh(
+        &mut self,
+        document: &Document,
+        catalog: &Catalog,
+        subgraphs: Subgraphs<'_>,
+        thumbnails: bool,
+    ) {
         let structure = document.structure_revision();
         if self.structure != Some(structure) || self.thumbnails != thumbnails {
             self.structure = Some(structure);
+            self.rects.clear();
             self.thumbnails = thumbnails;
             self.views.clear();
             self.sizes.clear();
@@ -51,7 +61,8 @@ impl Cards {
                 let rows = match known.get(&(node.kind.as_str(), &node.options)).filter(|_| plain) {
                     Some(rows) => *rows,
                     None => {
-                        let view = node_view(graph, catalog, name, node.graph.as_deref().and_then(subgraphs).as_deref());
+                        let view =
+                            node_view(graph, catalog, name, node.graph.as_deref().and_then(subgraphs).as_deref());
                         let rows = rows(&view);
                         if plain {
                             known.insert((&node.kind, &node.options), rows);
@@ -66,8 +77,14 @@ impl Cards {
             }
             self.auto.clear();
         }
-        if document.graph().nodes.keys().any(|n| !document.graph().layout.contains_key(n) && !self.auto.contains_key(n)) {
+        if document.graph().nodes.keys().any(|n| !document.graph().layout.contains_key(n) && !self.auto.contains_key(n))
+        {
             self.auto = crate::view::placed(document.graph(), &|name| self.size_of(document.graph(), name));
+        }
+        if self.revision != Some(document.revision()) || self.rects.is_empty() {
+            self.revision = Some(document.revision());
+            let graph = document.graph();
+            self.rects = graph.nodes.keys().map(|name| (name.clone(), self.placed(graph, name))).collect();
         }
         let values = document.value_revision();
         if self.values != Some(values) {
@@ -88,14 +105,24 @@ impl Cards {
         [f64::from(size.x), f64::from(size.y)]
     }
 
-    /// Where a card lies.
+    /// Where a card lies: as it was when this was last brought up to date, for those that were there.
     pub(in crate::gui) fn rect(&self, graph: &Graph, name: &str) -> Rect {
+        self.rects.get(name).copied().unwrap_or_else(|| self.placed(graph, name))
+    }
+
+    fn placed(&self, graph: &Graph, name: &str) -> Rect {
         let place = graph.layout.get(name).or_else(|| self.auto.get(name)).copied().unwrap_or_default();
         Rect::from_min_size(at(place), self.size(graph, name))
     }
 
     /// What a card shows.
-    pub(in crate::gui) fn view(&mut self, graph: &Graph, catalog: &Catalog, subgraphs: Subgraphs<'_>, name: &str) -> Arc<NodeView> {
+    pub(in crate::gui) fn view(
+        &mut self,
+        graph: &Graph,
+        catalog: &Catalog,
+        subgraphs: Subgraphs<'_>,
+        name: &str,
+    ) -> Arc<NodeView> {
         if let Some(view) = self.views.get(name) {
             return view.clone();
         }

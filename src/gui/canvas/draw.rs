@@ -1,6 +1,8 @@
 //! Cards of nodes and the ground that they lie on.
 
-use eframe::egui::{self, Align2, Color32, CornerRadius, FontId, Painter, Pos2, Rect, Stroke, StrokeKind, Ui, pos2, vec2};
+use eframe::egui::{
+    self, Align2, Color32, CornerRadius, FontId, Painter, Pos2, Rect, Stroke, StrokeKind, Ui, pos2, vec2,
+};
 
 use super::Surroundings;
 use super::camera::{Detail, View};
@@ -69,7 +71,11 @@ pub(super) fn nodes(
         let category = match &card.view {
             Some(view) => view.category.clone(),
             None if node.graph.is_some() => "subgraph".into(),
-            None => around.catalog.get(&node.kind).and_then(|f| f.header().ok()).map_or_else(String::new, |h| h.category.clone()),
+            None => around
+                .catalog
+                .get(&node.kind)
+                .and_then(|f| f.header().ok())
+                .map_or_else(String::new, |h| h.category.clone()),
         };
         let fade = if node.muted { 0.45 } else { 1.0 };
         let title = theme::category(&category, look.dark).gamma_multiply(fade);
@@ -83,7 +89,15 @@ pub(super) fn nodes(
             painter.rect_filled(bar, CornerRadius { nw: 6, ne: 6, sw: flat, se: flat }, title);
             let size = if view.detail() == Detail::Full { 13.5 * zoom } else { (13.5 * zoom).max(9.0) };
             let room = bar.width() - 16.0 * zoom;
-            text(painter, bar.left_center() + vec2(10.0 * zoom, 0.0), Align2::LEFT_CENTER, &card.name, size, room, look.text);
+            text(
+                painter,
+                bar.left_center() + vec2(10.0 * zoom, 0.0),
+                Align2::LEFT_CENTER,
+                &card.name,
+                size,
+                room,
+                look.text,
+            );
         }
         if let Some(ports) = &card.view {
             details(ui, painter, tab, around, view, card, ports, under, look);
@@ -141,10 +155,24 @@ fn details(
     let small = 10.5 * zoom;
     let right = pos2(rect.right() - 8.0 * zoom, rect.top() + TITLE * zoom / 2.0);
     let node = tab.graph().nodes.get(&card.name);
-    let tag = if node.is_some_and(|n| n.muted) { "muted" } else if ports.subgraph.is_some() { "file" } else { ports.title.as_str() };
+    let tag = if node.is_some_and(|n| n.muted) {
+        "muted"
+    } else if ports.subgraph.is_some() {
+        "file"
+    } else {
+        ports.title.as_str()
+    };
     if tag != card.name && card.rect.height() > TITLE + 1.0 {
         let name = painter.layout_no_wrap(card.name.clone(), FontId::proportional(13.5 * zoom), look.text).size().x;
-        text(painter, right, Align2::RIGHT_CENTER, tag, small, rect.width() - name - 28.0 * zoom, look.text.gamma_multiply(0.75));
+        text(
+            painter,
+            right,
+            Align2::RIGHT_CENTER,
+            tag,
+            small,
+            rect.width() - name - 28.0 * zoom,
+            look.text.gamma_multiply(0.75),
+        );
     }
     // The pins of the whole node.
     for output in [false, true] {
@@ -154,7 +182,13 @@ fn details(
             let at = pos2(x, rect.top() + TITLE * zoom / 2.0);
             let hot = matches!(under, Some(Under::Pin { end, output: o }) if *o == output && end.port.is_none() && end.node == card.name);
             let half = vec2(3.0, 7.0) * zoom * if hot { 1.3 } else { 1.0 };
-            painter.rect(Rect::from_center_size(at, half * 2.0), 2.0, look.weak, Stroke::new(1.0, look.outline), StrokeKind::Inside);
+            painter.rect(
+                Rect::from_center_size(at, half * 2.0),
+                2.0,
+                look.weak,
+                Stroke::new(1.0, look.outline),
+                StrokeKind::Inside,
+            );
             pin_name(ui, at, &End::node(&card.name), output, "whole node", None, false);
         }
     }
@@ -181,9 +215,25 @@ fn details(
         let ink = if bad.is_some() { look.error } else { look.text };
         let inset = 12.0 * zoom;
         if output {
-            text(painter, at - vec2(inset, 0.0), Align2::RIGHT_CENTER, &port.label, 12.0 * zoom, rect.width() * 0.7, ink);
+            text(
+                painter,
+                at - vec2(inset, 0.0),
+                Align2::RIGHT_CENTER,
+                &port.label,
+                12.0 * zoom,
+                rect.width() * 0.7,
+                ink,
+            );
         } else {
-            text(painter, at + vec2(inset, 0.0), Align2::LEFT_CENTER, &port.label, 12.0 * zoom, rect.width() * 0.55, ink);
+            text(
+                painter,
+                at + vec2(inset, 0.0),
+                Align2::LEFT_CENTER,
+                &port.label,
+                12.0 * zoom,
+                rect.width() * 0.55,
+                ink,
+            );
             if !port.linked {
                 value(painter, port, pos2(rect.right() - 10.0 * zoom, middle), zoom, look);
             }
@@ -216,7 +266,8 @@ fn details(
     if let Some((share, cost)) = around.costs.get(&card.name) {
         let galley = painter.layout_no_wrap(cost.clone(), FontId::proportional(11.0 * zoom), Color32::WHITE);
         let place = Rect::from_min_size(rect.left_bottom() + vec2(0.0, 3.0), galley.size() + vec2(10.0, 4.0));
-        let heat = Color32::from_rgb(60, 120, 90).lerp_to_gamma(Color32::from_rgb(0xd0, 0x40, 0x30), share.clamp(0.0, 1.0));
+        let heat =
+            Color32::from_rgb(60, 120, 90).lerp_to_gamma(Color32::from_rgb(0xd0, 0x40, 0x30), share.clamp(0.0, 1.0));
         painter.rect_filled(place, 4.0, heat);
         painter.galley(place.min + vec2(5.0, 2.0), galley, Color32::WHITE);
     }
@@ -233,7 +284,13 @@ fn value(painter: &Painter, port: &PortView, at: Pos2, zoom: f32, look: &Look) {
     match (port.value.as_ref().or(default), &port.default) {
         (Some(Value::Numbers(n)), _) if n.len() == 3 && port.ty.meaning.kind == crate::semantic::Kind::Color => {
             let swatch = Rect::from_center_size(at - vec2(13.0 * zoom, 0.0), vec2(26.0, 11.0) * zoom);
-            painter.rect(swatch, 2.0, super::super::values::shown_color(n), Stroke::new(1.0, look.outline), StrokeKind::Inside);
+            painter.rect(
+                swatch,
+                2.0,
+                super::super::values::shown_color(n),
+                Stroke::new(1.0, look.outline),
+                StrokeKind::Inside,
+            );
         }
         (Some(value), _) => text(painter, at, Align2::RIGHT_CENTER, &short(value), 10.5 * zoom, 90.0 * zoom, ink),
         (None, Some(crate::node::Default::Source(name))) => {
@@ -247,7 +304,9 @@ fn value(painter: &Painter, port: &PortView, at: Pos2, zoom: f32, look: &Look) {
 fn short(value: &Value) -> String {
     match value {
         Value::Bool(b) => if *b { "yes" } else { "no" }.into(),
-        Value::Numbers(n) => n.iter().map(|x| format!("{}", (x * 1000.0).round() / 1000.0)).collect::<Vec<_>>().join(" "),
+        Value::Numbers(n) => {
+            n.iter().map(|x| format!("{}", (x * 1000.0).round() / 1000.0)).collect::<Vec<_>>().join(" ")
+        }
         Value::Text(t) => t.rsplit('/').next().unwrap_or(t).to_owned(),
     }
 }
@@ -268,7 +327,15 @@ fn fits(tab: &Tab, node: &str, port: &PortView, output: bool) -> bool {
 }
 
 /// What assistive tools are told of a pin.
-fn pin_name(ui: &Ui, at: Pos2, end: &End, output: bool, meaning: &str, port: Option<&PortView>, linked: bool) -> egui::Response {
+fn pin_name(
+    ui: &Ui,
+    at: Pos2,
+    end: &End,
+    output: bool,
+    meaning: &str,
+    port: Option<&PortView>,
+    linked: bool,
+) -> egui::Response {
     let id = ui.id().with(("pin", end, output));
     let response = ui.interact(Rect::from_center_size(at, vec2(14.0, 14.0)), id, egui::Sense::hover());
     let side = if output { "output" } else { "input" };

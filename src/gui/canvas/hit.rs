@@ -45,14 +45,24 @@ impl Seen {
 #[derive(Clone, Debug, PartialEq)]
 pub(super) enum Under {
     /// A port, or the whole node where none is named, on the side where it gives (`output`) or takes.
-    Pin { end: End, output: bool },
+    Pin {
+        end: End,
+        output: bool,
+    },
     Node(String),
     /// The corner that changes a frame's size.
     Corner(String),
     Frame(String),
     /// A bend of a link.
-    Bend { from: End, to: End, index: usize },
-    Wire { from: End, to: End },
+    Bend {
+        from: End,
+        to: End,
+        index: usize,
+    },
+    Wire {
+        from: End,
+        to: End,
+    },
     Nothing,
 }
 
@@ -65,8 +75,7 @@ pub(super) fn seen(tab: &mut Tab, around: &Surroundings<'_>, view: &View) -> See
     for name in graph.nodes.keys() {
         let rect = tab.cards.rect(graph, name);
         if rect.intersects(seen) {
-            let ports = (detail == Detail::Full)
-                .then(|| tab.cards.view(graph, around.catalog, around.subgraphs, name));
+            let ports = (detail == Detail::Full).then(|| tab.cards.view(graph, around.catalog, around.subgraphs, name));
             cards.push(Card { name: name.clone(), rect, view: ports });
         }
     }

@@ -19,15 +19,35 @@ pub(in crate::gui) enum Gesture {
     #[default]
     None,
     /// Moves nodes, from where they were.
-    Nodes { start: BTreeMap<String, Pos2>, grabbed: Pos2 },
+    Nodes {
+        start: BTreeMap<String, Pos2>,
+        grabbed: Pos2,
+    },
     /// Draws a wire from a pin; perhaps one that was linked elsewhere before.
-    Wire { end: End, output: bool, ty: Option<Type>, replaced: Option<(End, End)> },
+    Wire {
+        end: End,
+        output: bool,
+        ty: Option<Type>,
+        replaced: Option<(End, End)>,
+    },
     /// Selects what is in a box.
-    Box { from: Pos2, before: BTreeSet<String> },
+    Box {
+        from: Pos2,
+        before: BTreeSet<String>,
+    },
     Pan,
-    Frame { name: String, last: Pos2 },
-    Corner { name: String },
-    Bend { from: End, to: End, index: usize },
+    Frame {
+        name: String,
+        last: Pos2,
+    },
+    Corner {
+        name: String,
+    },
+    Bend {
+        from: End,
+        to: End,
+        index: usize,
+    },
 }
 
 /// Whether a value of one type can become one of another.
@@ -147,7 +167,12 @@ fn click(tab: &mut Tab, around: &Surroundings<'_>, under: Option<&Under>, comman
             }
             tab.selection.clear();
             tab.frame = None;
-            tab.link = tab.graph().links.iter().find(|l| l.from.node == from.node && l.to.node == to.node).map(|l| (l.from.clone(), l.to.clone()));
+            tab.link = tab
+                .graph()
+                .links
+                .iter()
+                .find(|l| l.from.node == from.node && l.to.node == to.node)
+                .map(|l| (l.from.clone(), l.to.clone()));
         }
         Some(Under::Frame(name) | Under::Corner(name)) => {
             tab.selection.clear();
@@ -173,7 +198,9 @@ fn click(tab: &mut Tab, around: &Surroundings<'_>, under: Option<&Under>, comman
 /// Writes the ports that a link came to into it. False where they are not known, or it has them.
 pub(in crate::gui) fn pin_link(tab: &mut Tab, around: &Surroundings<'_>, from: &End, to: &End) -> bool {
     let found = around.wiring.get(&(from.node.clone(), to.node.clone()));
-    let Some(wire) = found.and_then(|w| w.first()).filter(|_| from.port.is_none() || to.port.is_none()) else { return false };
+    let Some(wire) = found.and_then(|w| w.first()).filter(|_| from.port.is_none() || to.port.is_none()) else {
+        return false;
+    };
     let edit = pin(tab.graph(), from, to, &wire.from.1, &wire.to.1);
     tab.document.change("Pin link", edit).is_ok()
 }
@@ -197,7 +224,12 @@ fn begin(tab: &mut Tab, seen: &Seen, view: &View, origin: Pos2, pressed: &Under,
             // Dragging from an input that a link is pinned to takes up that link.
             let held = tab.graph().links.iter().find(|l| !output && end.port.is_some() && l.to == *end);
             match held {
-                Some(link) => Gesture::Wire { end: link.from.clone(), output: true, ty: None, replaced: Some((link.from.clone(), link.to.clone())) },
+                Some(link) => Gesture::Wire {
+                    end: link.from.clone(),
+                    output: true,
+                    ty: None,
+                    replaced: Some((link.from.clone(), link.to.clone())),
+                },
                 None => Gesture::Wire { end: end.clone(), output: *output, ty, replaced: None },
             }
         }
@@ -243,7 +275,8 @@ fn drag(ui: &Ui, tab: &mut Tab, around: &Surroundings<'_>, view: &View, p: Pos2,
                 let there = *first + shift;
                 shift = vec2((there.x / step).round(), (there.y / step).round()) * step - first.to_vec2();
             }
-            let edits = start.iter().map(|(name, from)| Edit::Move(name.clone(), Some(position(*from + shift)))).collect();
+            let edits =
+                start.iter().map(|(name, from)| Edit::Move(name.clone(), Some(position(*from + shift)))).collect();
             tab.document.gesture("Move", "move nodes", Edit::Batch(edits))
         }
         Gesture::Box { from, before } => {
@@ -261,7 +294,8 @@ fn drag(ui: &Ui, tab: &mut Tab, around: &Surroundings<'_>, view: &View, p: Pos2,
             }
             *last = plane;
             let graph = tab.document.graph();
-            let edit = move_frame(graph, name, [f64::from(shift.x), f64::from(shift.y)], &|n| tab.cards.size_of(graph, n));
+            let edit =
+                move_frame(graph, name, [f64::from(shift.x), f64::from(shift.y)], &|n| tab.cards.size_of(graph, n));
             let key = format!("move frame {name}");
             tab.document.gesture("Move frame", &key, edit)
         }
@@ -275,7 +309,8 @@ fn drag(ui: &Ui, tab: &mut Tab, around: &Surroundings<'_>, view: &View, p: Pos2,
             None => Ok(()),
         },
         Gesture::Bend { from, to, index } => {
-            let mut bends = tab.document.graph().waypoints.get(&(from.clone(), to.clone())).cloned().unwrap_or_default();
+            let mut bends =
+                tab.document.graph().waypoints.get(&(from.clone(), to.clone())).cloned().unwrap_or_default();
             if let Some(bend) = bends.get_mut(*index) {
                 *bend = position(plane);
             }
@@ -288,7 +323,8 @@ fn drag(ui: &Ui, tab: &mut Tab, around: &Surroundings<'_>, view: &View, p: Pos2,
         wishes.push(Wish::Say(error.to_string()));
     }
     // At the edge the plane follows.
-    if matches!(tab.gesture, Gesture::Nodes { .. } | Gesture::Wire { .. } | Gesture::Box { .. }) && delta != Vec2::ZERO {
+    if matches!(tab.gesture, Gesture::Nodes { .. } | Gesture::Wire { .. } | Gesture::Box { .. }) && delta != Vec2::ZERO
+    {
         let inside = view.screen.shrink(14.0);
         let beyond = p - inside.clamp(p);
         tab.camera.center += beyond * 0.35 / tab.camera.zoom;
@@ -389,7 +425,15 @@ fn release(
 }
 
 /// Draws what a gesture shows on the way.
-pub(super) fn draw(ui: &Ui, painter: &egui::Painter, tab: &Tab, around: &Surroundings<'_>, view: &View, seen: &Seen, look: &Look) {
+pub(super) fn draw(
+    ui: &Ui,
+    painter: &egui::Painter,
+    tab: &Tab,
+    around: &Surroundings<'_>,
+    view: &View,
+    seen: &Seen,
+    look: &Look,
+) {
     let pointer = ui.input(|i| i.pointer.latest_pos());
     match (&tab.gesture, pointer) {
         (Gesture::Wire { end, output, ty, .. }, Some(p)) => {
@@ -400,7 +444,13 @@ pub(super) fn draw(ui: &Ui, painter: &egui::Painter, tab: &Tab, around: &Surroun
         }
         (Gesture::Box { from, .. }, Some(p)) => {
             let area = Rect::from_two_pos(view.to_screen(*from), p);
-            painter.rect(area, 0.0, look.selected.gamma_multiply(0.12), Stroke::new(1.0, look.selected), StrokeKind::Inside);
+            painter.rect(
+                area,
+                0.0,
+                look.selected.gamma_multiply(0.12),
+                Stroke::new(1.0, look.selected),
+                StrokeKind::Inside,
+            );
         }
         _ => {}
     }

@@ -17,7 +17,8 @@ pub(super) fn show(ui: &Ui, tab: &mut Tab, view: &View, look: &Look) {
     let place = Rect::from_min_size(view.screen.right_bottom() - size - vec2(12.0, 12.0), size);
     let painter = ui.painter_at(place.expand(1.0));
     painter.rect(place, 4.0, look.card.gamma_multiply(0.92), Stroke::new(1.0, look.outline), StrokeKind::Outside);
-    let on_map = |r: Rect| Rect::from_min_max(place.min + (r.min - all.min) * scale, place.min + (r.max - all.min) * scale);
+    let on_map =
+        |r: Rect| Rect::from_min_max(place.min + (r.min - all.min) * scale, place.min + (r.max - all.min) * scale);
     let graph = tab.document.graph();
     for name in graph.nodes.keys() {
         let color = if tab.selection.contains(name) { look.selected } else { look.weak };

@@ -86,12 +86,20 @@ pub(super) fn show(ui: &mut Ui, tab: &mut Tab, around: &Surroundings<'_>) -> (eg
     let mut wishes = Vec::new();
     input::camera(ui, &response, tab, screen);
     let view = View { camera: tab.camera, screen };
+    let before = tab.document.revision();
     let seen = hit::seen(tab, around, &view);
-    let under = response.hover_pos().or_else(|| response.interact_pointer_pos()).map(|p| hit::under(tab, &seen, &view, p));
+    let under =
+        response.hover_pos().or_else(|| response.interact_pointer_pos()).map(|p| hit::under(tab, &seen, &view, p));
     input::pointer(ui, &response, tab, around, &view, &seen, under.as_ref(), &mut wishes);
     // What was moved is drawn where it is now.
+    let moved = (tab.camera, tab.document.revision()) != (view.camera, before);
     let view = View { camera: tab.camera, screen };
-    let seen = hit::seen(tab, around, &view);
+    let seen = if moved {
+        tab.cards.refresh(&tab.document, around.catalog, around.subgraphs, around.thumbnails.is_some());
+        hit::seen(tab, around, &view)
+    } else {
+        seen
+    };
     let painter = ui.painter_at(screen);
     draw::background(&painter, &view, &look);
     frames::draw(ui, &painter, tab, &view, &look);

@@ -1,8 +1,8 @@
 //! Links as curves: coloured by what flows, whole nodes as broad bands, ports as lines, and on each the conversions that
 //! the weaver put in.
 
-use eframe::egui::{self, Color32, Painter, Pos2, Rect, Shape, Stroke, Ui, Vec2, vec2};
 use eframe::egui::epaint::{CubicBezierShape, PathShape};
+use eframe::egui::{self, Color32, Painter, Pos2, Rect, Shape, Stroke, Ui, Vec2, vec2};
 
 use super::Surroundings;
 use super::camera::{Detail, View, at};
@@ -29,7 +29,8 @@ impl Curve {
     fn pieces(&self) -> impl Iterator<Item = [Pos2; 4]> + '_ {
         self.points.windows(2).map(|ends| {
             let (a, b) = (ends[0], ends[1]);
-            let reach = if self.straight { 0.0 } else { ((b.x - a.x).abs() * 0.5).clamp(12.0, 120.0).max((a.x - b.x) * 0.35) };
+            let reach =
+                if self.straight { 0.0 } else { ((b.x - a.x).abs() * 0.5).clamp(12.0, 120.0).max((a.x - b.x) * 0.35) };
             [a, a + vec2(reach, 0.0), b - vec2(reach, 0.0), b]
         })
     }
@@ -98,7 +99,10 @@ impl Curve {
 
 fn bezier([a, b, c, d]: &[Pos2; 4], t: f32) -> Pos2 {
     let u = 1.0 - t;
-    let sum = a.to_vec2() * (u * u * u) + b.to_vec2() * (3.0 * u * u * t) + c.to_vec2() * (3.0 * u * t * t) + d.to_vec2() * (t * t * t);
+    let sum = a.to_vec2() * (u * u * u)
+        + b.to_vec2() * (3.0 * u * u * t)
+        + c.to_vec2() * (3.0 * u * t * t)
+        + d.to_vec2() * (t * t * t);
     sum.to_pos2()
 }
 
@@ -188,8 +192,13 @@ pub(super) fn draw(
             details(ui, painter, wire, &found, hovered || chosen, color, look, zoom);
         }
         if hovered && matches!(tab.gesture, super::Gesture::None) {
-            egui::Tooltip::always_open(ui.ctx().clone(), ui.layer_id(), ui.id().with("wire told"), egui::PopupAnchor::Pointer)
-                .show(|ui| ui.label(told(&wire.from, &wire.to, &found)));
+            egui::Tooltip::always_open(
+                ui.ctx().clone(),
+                ui.layer_id(),
+                ui.id().with("wire told"),
+                egui::PopupAnchor::Pointer,
+            )
+            .show(|ui| ui.label(told(&wire.from, &wire.to, &found)));
             if whole {
                 ghosts(painter, tab, around, view, seen, &found, look);
             }
@@ -199,7 +208,16 @@ pub(super) fn draw(
 
 /// The name of a link for assistive tools, and the mark of conversions.
 #[allow(clippy::too_many_arguments, reason = "what is drawn, where, and how it looks")]
-fn details(ui: &Ui, painter: &Painter, wire: &Wire, found: &[&Resolved], lively: bool, color: Color32, look: &Look, zoom: f32) {
+fn details(
+    ui: &Ui,
+    painter: &Painter,
+    wire: &Wire,
+    found: &[&Resolved],
+    lively: bool,
+    color: Color32,
+    look: &Look,
+    zoom: f32,
+) {
     let middle = wire.curve.point(0.5);
     let id = ui.id().with(("wire", &wire.from, &wire.to));
     let response = ui.interact(Rect::from_center_size(middle, vec2(14.0, 14.0)), id, egui::Sense::hover());
@@ -216,13 +234,23 @@ fn details(ui: &Ui, painter: &Painter, wire: &Wire, found: &[&Resolved], lively:
 }
 
 /// Thin lines between the ports that a link of whole nodes came to.
-fn ghosts(painter: &Painter, tab: &mut Tab, around: &Surroundings<'_>, view: &View, seen: &Seen, found: &[&Resolved], look: &Look) {
+fn ghosts(
+    painter: &Painter,
+    tab: &mut Tab,
+    around: &Surroundings<'_>,
+    view: &View,
+    seen: &Seen,
+    found: &[&Resolved],
+    look: &Look,
+) {
     for wire in found {
         let graph = tab.document.graph();
         let from_view = tab.cards.view(graph, around.catalog, around.subgraphs, &wire.from.0);
         let color = from_view.outputs.iter().find(|p| p.name == wire.from.1).map_or(look.weak, |p| badge(&p.ty).0);
         let (from, to) = (End::port(&wire.from.0, &wire.from.1), End::port(&wire.to.0, &wire.to.1));
-        if let (Some(a), Some(b)) = (super::hit::place(seen, view, &from, true), super::hit::place(seen, view, &to, false)) {
+        if let (Some(a), Some(b)) =
+            (super::hit::place(seen, view, &from, true), super::hit::place(seen, view, &to, false))
+        {
             curve(a, b, std::iter::empty(), false).dashed(painter, Stroke::new(1.5, color));
         }
     }

@@ -17,8 +17,8 @@ pub use clipboard::{copy, duplicate, paste};
 pub use connect::{connect, pin};
 pub use delete::delete;
 pub use kinds::{change_kind, compatible_kinds, swap_kind};
-pub use replace::replace;
 pub use names::free_name;
+pub use replace::replace;
 pub use subgraph::{expose, expose_option, expose_output, make_subgraph, unexpose};
 
 use crate::graph::{Edit, End, Graph, Link};

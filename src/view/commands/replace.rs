@@ -40,8 +40,12 @@ mod tests {
 
     #[test]
     fn one_graph_becomes_another_and_back() {
-        let one = graph("Graph(version: 1, name: \"A\", nodes: {\"a\": (kind: \"lambert\"), \"n\": (kind: \"sine\")}, links: [\"n -> a\"], layout: {\"a\": (1, 2)}, frames: {\"f\": (at: (0, 0), size: (10, 10))})");
-        let other = graph("Graph(version: 1, note: \"B\", nodes: {\"a\": (kind: \"ggx\"), \"m\": (kind: \"sine\")}, links: [\"m -> a.roughness\"], output: \"a\", collapsed: [\"m\"])");
+        let one = graph(
+            "Graph(version: 1, name: \"A\", nodes: {\"a\": (kind: \"lambert\"), \"n\": (kind: \"sine\")}, links: [\"n -> a\"], layout: {\"a\": (1, 2)}, frames: {\"f\": (at: (0, 0), size: (10, 10))})",
+        );
+        let other = graph(
+            "Graph(version: 1, note: \"B\", nodes: {\"a\": (kind: \"ggx\"), \"m\": (kind: \"sine\")}, links: [\"m -> a.roughness\"], output: \"a\", collapsed: [\"m\"])",
+        );
         let mut document = Document::new(one.clone());
         document.change("Replace", replace(&one, &other).expect("an edit")).expect("made");
         assert_eq!(document.text(), write(&other));

@@ -15,7 +15,10 @@ const LETTERS: usize = 96;
 
 /// What a row of the column is.
 enum Row<'a> {
-    Line { text: &'a str, node: Option<&'a str> },
+    Line {
+        text: &'a str,
+        node: Option<&'a str>,
+    },
     /// Lines that no node made.
     Gap,
 }
@@ -29,13 +32,20 @@ pub(super) fn draw(compiled: &Compiled, colors: &BTreeMap<&str, String>, width: 
     let y_of = |i: usize| i as f64 * LINE;
     let height = y_of(shown + usize::from(rows.len() > shown)) + 10.0;
     let _ = writeln!(out, r##"<rect width="{width}" height="{height:.1}" rx="4" fill="#fbfbfc" stroke="#d8dbe0"/>"##);
-    let _ = writeln!(out, r##"<g font-family="Hack, DejaVu Sans Mono, monospace" font-size="9.6" fill="#22262e" xml:space="preserve">"##);
+    let _ = writeln!(
+        out,
+        r##"<g font-family="Hack, DejaVu Sans Mono, monospace" font-size="9.6" fill="#22262e" xml:space="preserve">"##
+    );
     for (i, row) in rows.iter().take(shown).enumerate() {
         let y = y_of(i) + 5.0;
         match row {
             Row::Line { text, node } => {
                 if let Some(color) = node.and_then(|n| colors.get(n)) {
-                    let _ = writeln!(out, r#"<rect x="1" y="{y:.1}" width="{:.1}" height="{LINE}" fill="{color}" fill-opacity="0.18"/>"#, width - 2.0);
+                    let _ = writeln!(
+                        out,
+                        r#"<rect x="1" y="{y:.1}" width="{:.1}" height="{LINE}" fill="{color}" fill-opacity="0.18"/>"#,
+                        width - 2.0
+                    );
                     let _ = writeln!(out, r#"<rect x="1" y="{y:.1}" width="5" height="{LINE}" fill="{color}"/>"#);
                 }
                 let _ = writeln!(out, r#"<text x="12" y="{:.1}">{}</text>"#, y + 9.5, escaped(&cut(text, LETTERS)));
@@ -46,7 +56,12 @@ pub(super) fn draw(compiled: &Compiled, colors: &BTreeMap<&str, String>, width: 
         }
     }
     if rows.len() > shown {
-        let _ = writeln!(out, r##"<text x="12" y="{:.1}" fill="#9aa0aa">⋯ {} more lines</text>"##, y_of(shown) + 14.5, rows.len() - shown);
+        let _ = writeln!(
+            out,
+            r##"<text x="12" y="{:.1}" fill="#9aa0aa">⋯ {} more lines</text>"##,
+            y_of(shown) + 14.5,
+            rows.len() - shown
+        );
     }
     out.push_str("</g>\n");
     (out, height)
@@ -68,7 +83,10 @@ fn rows<'a>(compiled: &'a Compiled, colors: &BTreeMap<&'a str, String>) -> Vec<R
         }
         if node.is_some() || (head && !text.is_empty()) {
             // A function that nothing of the graph is in is left out with its end.
-            if text == "}" && matches!(rows.last(), Some(Row::Gap)) && matches!(rows.iter().rev().nth(1), Some(Row::Line { text, node: None }) if text.starts_with("fn ")) {
+            if text == "}"
+                && matches!(rows.last(), Some(Row::Gap))
+                && matches!(rows.iter().rev().nth(1), Some(Row::Line { text, node: None }) if text.starts_with("fn "))
+            {
                 rows.pop();
                 rows.pop();
                 if !matches!(rows.last(), Some(Row::Gap)) {

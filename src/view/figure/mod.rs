@@ -66,7 +66,11 @@ impl Figure<'_> {
             r#"<svg xmlns="http://www.w3.org/2000/svg" width="{width:.0}" height="{height:.0}" viewBox="0 0 {width:.0} {height:.0}" font-family="Ubuntu, Helvetica, Arial, sans-serif">"#
         );
         let _ = writeln!(out, r##"<rect width="100%" height="100%" fill="#ffffff"/>"##);
-        let _ = writeln!(out, r##"<text x="{MARGIN}" y="36" font-size="22" fill="#1d2026">{}</text>"##, escaped(self.title));
+        let _ = writeln!(
+            out,
+            r##"<text x="{MARGIN}" y="36" font-size="22" fill="#1d2026">{}</text>"##,
+            escaped(self.title)
+        );
         let _ = writeln!(out, r#"<g transform="translate({:.1} {:.1})">"#, tree_at[0], tree_at[1]);
         out.push_str(&tree);
         let _ = writeln!(out, "</g>\n<g transform=\"translate({:.1} {:.1})\">", code_at[0], code_at[1]);
@@ -81,7 +85,11 @@ impl Figure<'_> {
                 code_at[1]
             );
             let y = code_at[1] + picture_height + 18.0;
-            let _ = writeln!(out, r##"<text x="{x:.1}" y="{y:.1}" font-size="12" fill="#5e6672">{}</text>"##, escaped(self.caption));
+            let _ = writeln!(
+                out,
+                r##"<text x="{x:.1}" y="{y:.1}" font-size="12" fill="#5e6672">{}</text>"##,
+                escaped(self.caption)
+            );
         }
         out.push_str("</svg>\n");
         out
@@ -91,7 +99,8 @@ impl Figure<'_> {
 /// A colour for each node, told apart as well by those who see no red or no green (after Okabe and Ito 2008); more nodes
 /// take them again, paler.
 fn colors<'a>(names: impl Iterator<Item = &'a String>) -> BTreeMap<&'a str, String> {
-    const BASE: [(u8, u8, u8); 7] = [(230, 159, 0), (86, 180, 233), (0, 158, 115), (204, 121, 167), (0, 114, 178), (213, 94, 0), (190, 170, 20)];
+    const BASE: [(u8, u8, u8); 7] =
+        [(230, 159, 0), (86, 180, 233), (0, 158, 115), (204, 121, 167), (0, 114, 178), (213, 94, 0), (190, 170, 20)];
     let shade = |i: usize| {
         let (r, g, b) = BASE[i % BASE.len()];
         let pale = u16::try_from((i / BASE.len()).min(3)).unwrap_or(0) * 18;
@@ -120,7 +129,11 @@ fn escaped(text: &str) -> String {
 
 /// A text of at most so many letters.
 fn cut(text: &str, most: usize) -> String {
-    if text.chars().count() <= most { text.to_owned() } else { text.chars().take(most.saturating_sub(1)).chain(['…']).collect() }
+    if text.chars().count() <= most {
+        text.to_owned()
+    } else {
+        text.chars().take(most.saturating_sub(1)).chain(['…']).collect()
+    }
 }
 
 #[cfg(test)]

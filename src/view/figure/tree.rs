@@ -40,7 +40,12 @@ fn anchor(graph: &Graph, at: [f64; 2], end: &End, leaves: bool) -> [f64; 2] {
 }
 
 /// Draws the tree no wider than `most`. Answers its text and its size.
-pub(super) fn draw(graph: &Graph, cards: &BTreeMap<String, NodeView>, colors: &BTreeMap<&str, String>, most: f64) -> (String, [f64; 2]) {
+pub(super) fn draw(
+    graph: &Graph,
+    cards: &BTreeMap<String, NodeView>,
+    colors: &BTreeMap<&str, String>,
+    most: f64,
+) -> (String, [f64; 2]) {
     // Cards here are smaller than on a canvas, so that places made for that would leave holes.
     let loose = Graph { layout: BTreeMap::new(), ..graph.clone() };
     let places = placed(&loose, &|name| size(graph, name));
@@ -68,7 +73,14 @@ pub(super) fn draw(graph: &Graph, cards: &BTreeMap<String, NodeView>, colors: &B
         let _ = writeln!(
             out,
             r#"<path d="M{:.1} {:.1} C{:.1} {:.1} {:.1} {:.1} {:.1} {:.1}" fill="none" stroke="{color}" stroke-width="{thick}"/>"#,
-            a[0], a[1], a[0] + reach, a[1], b[0] - reach, b[1], b[0], b[1]
+            a[0],
+            a[1],
+            a[0] + reach,
+            a[1],
+            b[0] - reach,
+            b[1],
+            b[0],
+            b[1]
         );
     }
     for (name, at) in &places {
@@ -80,16 +92,48 @@ pub(super) fn draw(graph: &Graph, cards: &BTreeMap<String, NodeView>, colors: &B
 
 fn card(out: &mut String, graph: &Graph, name: &str, view: Option<&NodeView>, [x, y]: [f64; 2], color: &str) {
     let [width, height] = size(graph, name);
-    let _ = writeln!(out, r##"<rect x="{x:.1}" y="{y:.1}" width="{width}" height="{height:.1}" rx="5" fill="#f6f7f9" stroke="{color}" stroke-width="1.5"/>"##);
-    let _ = writeln!(out, r#"<path d="M{x:.1} {:.1} v{:.1} q0 -5 5 -5 h{:.1} q5 0 5 5 v{:.1} z" fill="{color}"/>"#, y + TITLE, 5.0 - TITLE, width - 10.0, TITLE - 5.0);
-    let _ = writeln!(out, r##"<text x="{:.1}" y="{:.1}" font-size="13" font-weight="bold" fill="#14161a">{}</text>"##, x + 8.0, y + 17.0, escaped(&cut(name, 19)));
+    let _ = writeln!(
+        out,
+        r##"<rect x="{x:.1}" y="{y:.1}" width="{width}" height="{height:.1}" rx="5" fill="#f6f7f9" stroke="{color}" stroke-width="1.5"/>"##
+    );
+    let _ = writeln!(
+        out,
+        r#"<path d="M{x:.1} {:.1} v{:.1} q0 -5 5 -5 h{:.1} q5 0 5 5 v{:.1} z" fill="{color}"/>"#,
+        y + TITLE,
+        5.0 - TITLE,
+        width - 10.0,
+        TITLE - 5.0
+    );
+    let _ = writeln!(
+        out,
+        r##"<text x="{:.1}" y="{:.1}" font-size="13" font-weight="bold" fill="#14161a">{}</text>"##,
+        x + 8.0,
+        y + 17.0,
+        escaped(&cut(name, 19))
+    );
     let kind = view.map_or_else(String::new, |v| v.title.clone());
-    let _ = writeln!(out, r##"<text x="{:.1}" y="{:.1}" font-size="10.5" fill="#5e6672">{}</text>"##, x + 8.0, y + TITLE + 12.0, escaped(&cut(&kind, 26)));
+    let _ = writeln!(
+        out,
+        r##"<text x="{:.1}" y="{:.1}" font-size="10.5" fill="#5e6672">{}</text>"##,
+        x + 8.0,
+        y + TITLE + 12.0,
+        escaped(&cut(&kind, 26))
+    );
     let mut row = y + TITLE + 16.0 + ROW * 0.5 - 2.0;
-    for (leaves, port) in ports(graph, name, true).into_iter().map(|p| (true, p)).chain(ports(graph, name, false).into_iter().map(|p| (false, p))) {
+    for (leaves, port) in ports(graph, name, true)
+        .into_iter()
+        .map(|p| (true, p))
+        .chain(ports(graph, name, false).into_iter().map(|p| (false, p)))
+    {
         let (edge, anchor, inset) = if leaves { (x + width, "end", -9.0) } else { (x, "start", 9.0) };
         let _ = writeln!(out, r#"<circle cx="{edge:.1}" cy="{row:.1}" r="3.2" fill="{color}"/>"#);
-        let _ = writeln!(out, r##"<text x="{:.1}" y="{:.1}" font-size="11" fill="#2a2e36" text-anchor="{anchor}">{}</text>"##, edge + inset, row + 4.0, escaped(&cut(port, 20)));
+        let _ = writeln!(
+            out,
+            r##"<text x="{:.1}" y="{:.1}" font-size="11" fill="#2a2e36" text-anchor="{anchor}">{}</text>"##,
+            edge + inset,
+            row + 4.0,
+            escaped(&cut(port, 20))
+        );
         row += ROW;
     }
 }
