@@ -110,7 +110,7 @@ fn exponential_variance_shadow(
 //#if warps == two
 //#if format == float32
     let exponent_2 = min(FALLING, SINGLE_EXPONENT);
-    let falling = falling_warp(depth, exponent_2, SINGLE_FALLING_FAR);
+    let falling = falling_warp(depth, exponent_2, single_falling_far(exponent_2));
 //#else
     let exponent_2 = min(FALLING, HALF_EXPONENT);
     let falling = falling_warp(depth, exponent_2, HALF_FALLING_FAR);

@@ -7,7 +7,7 @@ use shadetree::render::Gpu;
 
 use super::lamp::{Lamp, PLAIN, Plate, SIDE, STEP, layers, sampled, under};
 use super::methods::{METHODS, Method};
-use crate::stage::{Item, Stage, View, gpu, renders, skipped};
+use crate::stage::{Item, Stage, View, gpu, light, renders, skipped, visibility};
 
 /// In full shadow under one wide plate at a height, where a speck far off keeps the sun's range.
 fn umbra(lamp: Lamp, height: f64) -> Stage {
@@ -108,6 +108,37 @@ fn minimum_variance_leaks_under_a_warp_by_its_law() {
                     assert!((low..=high).contains(&value), "{lamp:?} {least} {height}: {value} {low} {high}");
                 }
             }
+        }
+    }
+}
+
+/// The falling warp is least at the far plane, and variances there are differences of its squares: what devices take for
+/// nothing, below 2^-126, must not be among them. Seen from afar, where a filter covers a part of the slope that counts.
+#[test]
+fn slopes_at_the_far_plane_stay_lit_under_both_warps() {
+    let Some(mut gpu) = gpu() else { return };
+    if !able(&gpu) {
+        return;
+    }
+    // Close to the corner of the ground that is farthest from the sun, in pixels of up to 0.2 m.
+    let view = View {
+        position: DVec3::new(-2.0, 4.0, -2.0),
+        target: DVec3::new(-6.0, 0.0, -6.0),
+        up: DVec3::Y,
+        half_height: 0.105,
+        size: (12, 12),
+    };
+    let stage = Stage::new(vec![Item::plane([16.0, 16.0], DMat4::IDENTITY)], view);
+    for falling in [5.0, 5.54, 10.0, 20.0, 40.0] {
+        for sampling in ["taps", "manual"] {
+            let options = format!("\"falling\": \"{falling}\", \"sampling\": \"{sampling}\"");
+            let sun = "\"direction\": (-1, -1.6, -1)";
+            let shader = light("directional_light", sun, "exponential_variance_shadow", "", &options);
+            let values = stage.look(&mut gpu, &visibility(&shader));
+            let least = values.into_iter().fold(1.0, f64::min);
+            // Of a filter with deviation s, the mean lies c s^2 behind its middle under the warp: 1 - c^2 s^2 is left.
+            let law = 1.0 - (falling * 0.02_f64).powi(2);
+            assert!(least > law, "{falling} {sampling}: {least}");
         }
     }
 }
