@@ -1,7 +1,7 @@
 //! label: Summed-area soft shadow
 //! category: shadow
 //! synonyms: pcss, percentage closer soft shadow, vssm, variance soft shadow, satvsm, area light shadow, penumbra
-//! use: light_space, summed_area
+//! use: light_space, summed_area, receiver_within
 //! Soft shadow of a light with a size (Fernando 2005) from a summed-area table of moments: one box finds how far away the occluders are, another as wide as their penumbra filters (Lauritzen 2007; Yang and others 2010, section 3). Exact for one plane above another and a rectangular light, in wide boxes to half a texel; a round one is taken for the rectangle of equal variance. Wide boxes are cut into four by four, each with the depth that the receiver's plane has there (Yang and others 2010, section 4), so that slopes do not count as variance. It fails where the first box holds surfaces behind the receiver, which hide occluders from the mean and harden the edge; where occluders lie at several depths, which are taken for one and bleed; and where the penumbra is wider than the widest box, which cuts it off.
 //! option fraction_bits: 16 | 18 | 20 | 22 = 18 - Digits of the table's numbers after the binary point: each two more quarter the rounding of moments and halve the widest box, which is 256, 128, 64 or 32 texels.
 //! option build: compute | image = compute - How the table is made.
@@ -47,9 +47,10 @@ fn seen_in_whole(
     least_variance: f32,
     reduction: f32,
 ) -> Seen {
-    let region = summed_box(plane.uv, width, vec2f(textureDimensions(table)));
+    let size = vec2f(textureDimensions(table));
+    let region = summed_box(plane.uv, width, size);
     let moments = summed_mean(table, light_layer(space), region) * (1.0 / f32(1u << FRACTION_BITS));
-    let depth = receiver_depth(space, plane, region.center);
+    let depth = receiver_depth_within(space, plane, region.center, width / size);
     let variance = moments.y - moments.x * moments.x;
     let lit = summed_bound(depth, moments.x, variance, least_variance, reduction);
     return Seen(lit, max(depth - moments.x, 0.0));
@@ -82,7 +83,8 @@ fn seen_in_parts(
                 let sum = (before[i] - before[i - 1]) - (above[i] - above[i - 1]);
                 let moments = vec2f(sum) * (1.0 / f32(1u << FRACTION_BITS)) / area;
                 let center = vec2f(columns.x + columns.y, rows.x + rows.y) * 0.5 / size;
-                let depth = receiver_depth(space, plane, center);
+                let sides = vec2f(columns.y - columns.x, rows.y - rows.x) / size;
+                let depth = receiver_depth_within(space, plane, center, sides);
                 let variance = moments.y - moments.x * moments.x;
                 seen.lit += area * summed_bound(depth, moments.x, variance, least_variance, reduction);
                 seen.nearer += area * max(depth - moments.x, 0.0);

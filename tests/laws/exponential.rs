@@ -143,6 +143,53 @@ fn slopes_at_the_far_plane_stay_lit_under_both_warps() {
     }
 }
 
+/// A lamp low above a ground that runs through the far plane of its maps, from before to behind.
+fn through_the_far_plane(lamp: &str, at: &str, shadow: &str, options: &str) -> (Stage, Compiled) {
+    let view = View {
+        position: DVec3::new(3.0, 1.5, 0.3),
+        target: DVec3::new(6.0, 0.0, 0.0),
+        up: DVec3::Y,
+        half_height: 0.1,
+        size: (160, 90),
+    };
+    let shader = visibility(&light(lamp, at, shadow, "", options));
+    (Stage::new(vec![Item::plane([40.0, 40.0], DMat4::IDENTITY)], view), shader)
+}
+
+/// Maps that hold no depth beyond the far plane bend what runs through it; the receiver is bent as much.
+#[test]
+fn the_ground_stays_lit_where_a_range_ends() {
+    let Some(mut gpu) = gpu() else { return };
+    if !able(&gpu) {
+        return;
+    }
+    let point = ("point_light", "\"position\": (0, 1, 0), \"range\": 6");
+    let spot = ("spot_light", "\"position\": (0, 1, 0), \"direction\": (1, -0.15, 0), \"near\": 1, \"range\": 6");
+    let mut dark = Vec::new();
+    for (lamp, at) in [point, spot] {
+        for (shadow, options) in [
+            ("exponential_shadow", ""),
+            ("exponential_shadow", "\"domain\": \"log\""),
+            ("exponential_shadow", "\"metric\": \"radial\", \"mips\": \"off\""),
+            ("exponential_shadow", "\"width\": \"15\", \"sampling\": \"manual\""),
+            ("exponential_variance_shadow", ""),
+            ("exponential_variance_shadow", "\"warps\": \"one\""),
+            ("exponential_variance_shadow", "\"metric\": \"radial\", \"width\": \"15\""),
+            ("exponential_variance_shadow", "\"metric\": \"zw\", \"sampling\": \"hardware\""),
+            ("summed_area_shadow", ""),
+            ("summed_area_soft_shadow", ""),
+            ("variance_shadow", ""),
+        ] {
+            let (stage, shader) = through_the_far_plane(lamp, at, shadow, options);
+            let least = stage.look(&mut gpu, &shader).into_iter().fold(1.0, f64::min);
+            if least < 0.98 {
+                dark.push(format!("{lamp} {shadow} {options}: {least}"));
+            }
+        }
+    }
+    assert!(dark.is_empty(), "{}", dark.join("\n"));
+}
+
 /// The edge of a plate under an occluder, with the ground behind both: pixels of the plate with what is in their filter.
 fn receiver_edge(gpu: &mut Gpu, lamp: Lamp, shader: &Compiled, height: f64) -> Vec<(f64, Vec<(f64, f64)>)> {
     let plates = [Plate { height: 1.0, edge: 2.0, angle: 0.0 }, Plate { height, edge: 6.0, angle: 0.0 }];
