@@ -35,3 +35,25 @@ fn receiver_depth_within(space: LightSpace, plane: ReceiverPlane, uv: vec2f, wid
     let rise = receiver_rise(space, plane, uv, width);
     return mean_up_to_far(light_linear_depth(space, receiver_distance(space, plane, uv)), rise.x + rise.y);
 }
+
+/// Mean and variance of the plane's linear depth in the same box, where what lies beyond the far plane counts as in it. In a
+/// perspective 1 / distance is even, so that the mean is deeper than the middle: of distances 1 / w with w from a to b, the
+/// mean is ln(b / a) / (b - a) and the mean square 1 / (a b).
+fn receiver_moments_within(space: LightSpace, plane: ReceiverPlane, uv: vec2f, width: vec2f) -> vec2f {
+    let distance = receiver_distance(space, plane, uv);
+    let rise = length(receiver_rise(space, plane, uv, width));
+    let depth = light_linear_depth(space, distance);
+    let even = vec2f(mean_up_to_far(depth, rise), rise * rise * (1.0 / 3.0));
+    // Half the spread of 1 / distance, in parts of its middle; as receivers elsewhere, within four times the distance.
+    let spread = rise / (space.depth.z * max(distance, 1e-6));
+    let middle = 1.0 / max(distance, 1e-6);
+    let farthest = 1.0 / space.depth.y;
+    let high = middle * (1.0 + max(spread, 0.05));
+    let low = middle * max(1.0 - max(spread, 0.05), 0.25);
+    let bend = clamp(farthest, low, high);
+    let mean = ((bend - low) / farthest + log(high / bend)) / (high - low);
+    let square = ((bend - low) / (farthest * farthest) + (1.0 / bend - 1.0 / high)) / (high - low);
+    let variance = max(square - mean * mean, 0.0) * space.depth.z * space.depth.z;
+    let uneven = vec2f(saturate(light_linear_depth(space, mean)), variance);
+    return select(even, uneven, space.projection.z > 0.5 && spread > 0.05);
+}
