@@ -178,6 +178,7 @@ fn the_ground_stays_lit_where_a_range_ends() {
             ("exponential_variance_shadow", "\"metric\": \"zw\", \"sampling\": \"hardware\""),
             ("summed_area_shadow", ""),
             ("summed_area_soft_shadow", ""),
+            ("moment_shadow", ""),
             ("variance_shadow", ""),
         ] {
             let (stage, shader) = through_the_far_plane(lamp, at, shadow, options);
