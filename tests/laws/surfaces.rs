@@ -146,10 +146,10 @@ fn moments_do_not_darken_lit_ground_up_to_the_horizon() {
     }
     let view = View {
         position: DVec3::new(0.6, 1.1, 40.0),
-        target: DVec3::new(0.5, 0.0, 14.0),
+        target: DVec3::new(0.5, 0.0, 20.0),
         up: DVec3::Y,
         half_height: 0.04,
-        size: (120, 60),
+        size: (40, 20),
     };
     let stage = Stage::new(vec![Item::plane([60.0, 80.0], DMat4::IDENTITY)], view);
     let sun = "\"direction\": (1, -0.7, -0.15)";

@@ -290,7 +290,8 @@ fn summed_area_shadow(
     let mean = moments.x;
     let variance = moments.y - mean * mean;
     // At the borders the middle of the box is another place of the receiver, at another depth.
-    let depth = receiver_depth_within(space, plane, region.center, box_width / size);
+    // Parts of texels are as deep as all of them: half a texel more at each end.
+    let depth = receiver_depth_within(space, plane, region.center, (box_width + 1.0) / size);
     let visibility = summed_bound(depth, mean, variance, minimum_variance, bleeding_reduction);
     return select(visibility, 1.0, receives < 0.5 || outside_light_map(space, position, plane.uv));
 }

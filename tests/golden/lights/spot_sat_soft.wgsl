@@ -332,7 +332,9 @@ fn seen_in_whole(
     let size = vec2f(textureDimensions(table));
     let region = summed_box(plane.uv, width, size);
     let moments = summed_mean(table, light_layer(space), region) * (1.0 / f32(1u << FRACTION_BITS));
-    return seen_by_moments(space, plane, region.center, width / size, moments, least_variance, reduction, search);
+    // Parts of texels are as deep as all of them: half a texel more at each end.
+    let sides = (width + 1.0) / size;
+    return seen_by_moments(space, plane, region.center, sides, moments, least_variance, reduction, search);
 }
 
 fn seen_in_parts(
