@@ -44,7 +44,11 @@
 //! clear: 240 57600 -0.00390625 0.0000152587890625
 //#elif format == float32
 //! target: rgba32float
-//! clear: 1152921504606846976 1329227995784915872903807060280344576 -8.673617379884035e-19 7.52316384526264e-37
+//#if falling == 40
+//! clear: 1152921504606846976 1329227995784915872903807060280344576 -5.551115123125783e-17 3.0814879110195774e-33
+//#else
+//! clear: 1152921504606846976 1329227995784915872903807060280344576 -1 1
+//#end
 //#else
 //! target: rgba16float
 //! clear: 240 57600 -0.00390625 0.0000152587890625
@@ -141,7 +145,7 @@ fn fs_main(fragment_in: Varying) -> @location(0) vec4f {
 //#else
 //#if format == float32
     let exponent_2 = min(FALLING, SINGLE_EXPONENT);
-    let far_2 = SINGLE_FALLING_FAR;
+    let far_2 = single_falling_far(exponent_2);
 //#else
     let exponent_2 = min(FALLING, HALF_EXPONENT);
     let far_2 = HALF_FALLING_FAR;

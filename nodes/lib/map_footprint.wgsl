@@ -19,6 +19,12 @@ fn map_footprint(size: vec2f, uv_dx: vec2f, uv_dy: vec2f, most: f32) -> MapFootp
     return MapFootprint(level, taps, select(uv_dy, uv_dx, across > down) / taps);
 }
 
+/// Half of the width (map coordinates) of what the taps of a footprint cover, with what they interpolate.
+fn footprint_reach(size: vec2f, uv_dx: vec2f, uv_dy: vec2f, most: f32) -> vec2f {
+    let footprint = map_footprint(size, uv_dx, uv_dy, most);
+    return 0.5 * footprint.taps * abs(footprint.step) + exp2(ceil(footprint.level)) / size;
+}
+
 /// The mean over a footprint through a sampler that interpolates. `most`: longest footprint in widths that is followed.
 fn sample_footprint(
     map: texture_2d_array<f32>,

@@ -1,7 +1,7 @@
 //! label: Exponential shadow
 //! category: shadow
 //! synonyms: esm, exponential shadow map, soft shadow, filtered shadow, blurred shadow
-//! use: light_space, chebyshev, map_footprint, exponential_warp
+//! use: light_space, chebyshev, map_footprint, exponential_warp, receiver_within
 //! Shadow from a filtered exponential of depth (Annen et al. 2008; Salvi 2008): e^(-c t) times the mean of e^(c z) is the lit share, up to what occluders close above the receiver let through. One number a texel, no light bleeding; but light leaks at contacts, and where a part of the filter lies behind the receiver.
 //! option exponent: 5 | 11 | 20 | 40 | 80 = 80 - How fast the exponential rises over the light's range: an occluder 5.54 / exponent of the range above the receiver lets 1/255 through, a nearer one more. Exponentials in 16 bits hold 11 at most, and are given no more.
 //! option domain: plain | log = plain - What is stored: exponentials, or their logarithms, which are depths and fit any format, with blurs that average exponentials all the same. Between texels the sampler then interpolates depth.
@@ -23,6 +23,7 @@
 //! sampler texel_sampler: filter=nearest address=clamp
 
 const EXPONENT: f32 = 80.0;
+const WIDTH: f32 = 5.0;
 
 //#if mips == on
 //#if sampling != hardware
@@ -80,19 +81,43 @@ fn exponential_shadow(
 //#end
 //#end
 //#if metric == linear
-    let depth = saturate(light_depth_linear(space, position));
+    let measured = light_depth_linear(space, position);
+    let scale = 1.0;
 //#elif metric == zw
-    let depth = saturate(light_depth_zw(space, position));
+    let measured = light_depth_zw(space, position);
+    let scale = light_scale_zw(space, position);
 //#else
-    let depth = saturate(light_depth_radial(space, position));
+    let measured = light_depth_radial(space, position);
+    let scale = light_scale_radial(space, position);
 //#end
+    // The map holds what lies beyond the far plane as lying in it.
+    let size = vec2f(textureDimensions(map));
+    let blurred = (0.5 * WIDTH * light_zoom(space) + 1.0) / size;
+//#if mips == on
+//#if sampling == hardware
+    let filtered = blurred + footprint_reach(size, uv_dx, uv_dy, 1.0);
+//#else
+    let filtered = blurred + footprint_reach(size, uv_dx, uv_dy, ANISOTROPY);
+//#end
+//#else
+    let filtered = blurred;
+//#end
+    let plane = receiver_plane(space, position, geometric_normal(point));
+    let reach = receiver_reach(space, plane, filtered) * scale;
     // No bias: the mean of the exponentials over a lit slope is above the exponential of its middle.
 //#if domain == log
-    let ratio = exp(EXPONENT * (stored - depth));
-//#elif format == float32
-    let ratio = stored * exp(EXPONENT * (1.0 - depth));
+    let ratio = exp(EXPONENT * (stored - mean_up_to_far(measured, reach)));
 //#else
-    let ratio = stored * (1.0 / 32768.0) * exp(min(EXPONENT, 2.0 * HALF_EXPONENT) * (1.0 - depth));
+//#if format == float32
+    let exponent = EXPONENT;
+    let mean = stored;
+//#else
+    let exponent = min(EXPONENT, 2.0 * HALF_EXPONENT);
+    let mean = stored * (1.0 / 32768.0);
+//#end
+    let alone = exp(exponent * (saturate(measured) - 1.0));
+    let nearest = exp(exponent * (saturate(measured - reach) - 1.0));
+    let ratio = mean / warped_mean_up_to_far(alone, nearest, 1.0, exponent, measured, reach);
 //#end
     let visibility = reduce_bleeding(min(ratio, 1.0), bleeding_reduction);
     return select(visibility, 1.0, receives < 0.5 || outside_light_map(space, position, uv));

@@ -1,7 +1,7 @@
 //! label: Exponential variance shadow
 //! category: shadow
 //! synonyms: evsm, evsm2, evsm4, exponential variance shadow map, soft shadow, filtered shadow, blurred shadow
-//! use: light_space, chebyshev, map_footprint, exponential_warp
+//! use: light_space, chebyshev, map_footprint, exponential_warp, receiver_within
 //! Shadow from the mean and variance of an exponential of depth, in which distances between occluders shrink to next to nothing beside that to the receiver: variance shadow mapping without light bleeding (Lauritzen and McCool 2008). Where a part of the filter lies behind the receiver, the exponential makes it count for more than it is; a second, falling exponential bounds that.
 //! option warps: one | two = two - The rising exponential alone, in two numbers a texel, or the falling one as well, in four. One is falsely lit where what lies behind the receiver comes into the filter.
 //! option exponent: 5 | 5.54 | 10 | 15 | 20 | 30 | 40 | 42 = 40 - c of the rising exponential e^(c (2 depth - 1)). 32 bits hold 42 at most, 16 bits 5.54, and are given no more.
@@ -25,6 +25,7 @@
 //! sampler texel_sampler: filter=nearest address=clamp
 
 const EXPONENT: f32 = 40.0;
+const WIDTH: f32 = 5.0;
 
 //#if warps == two
 const FALLING: f32 = 5.0;
@@ -92,30 +93,57 @@ fn exponential_variance_shadow(
 //#end
 //#end
 //#if metric == linear
-    let depth = saturate(light_depth_linear(space, position));
+    let measured = light_depth_linear(space, position);
+    let scale = 1.0;
 //#elif metric == zw
-    let depth = saturate(light_depth_zw(space, position));
+    let measured = light_depth_zw(space, position);
+    let scale = light_scale_zw(space, position);
 //#else
-    let depth = saturate(light_depth_radial(space, position));
+    let measured = light_depth_radial(space, position);
+    let scale = light_scale_radial(space, position);
 //#end
+    // The map holds what lies beyond the far plane as lying in it.
+    let size = vec2f(textureDimensions(map));
+    let blurred = (0.5 * WIDTH * light_zoom(space) + 1.0) / size;
+//#if mips == on
+//#if sampling == hardware
+    let filtered = blurred + footprint_reach(size, uv_dx, uv_dy, 1.0);
+//#else
+    let filtered = blurred + footprint_reach(size, uv_dx, uv_dy, ANISOTROPY);
+//#end
+//#else
+    let filtered = blurred;
+//#end
+    let plane = receiver_plane(space, position, geometric_normal(point));
+    let reach = receiver_reach(space, plane, filtered) * scale;
+    let depth = saturate(measured);
+    let nearest = saturate(measured - reach);
 //#if format == float32
     let exponent = min(EXPONENT, SINGLE_EXPONENT);
-    let rising = rising_warp(depth, exponent, SINGLE_RISING_FAR);
+    let far = SINGLE_RISING_FAR;
 //#else
     let exponent = min(EXPONENT, HALF_EXPONENT);
-    let rising = rising_warp(depth, exponent, HALF_RISING_FAR);
+    let far = HALF_RISING_FAR;
 //#end
+    let rise = 2.0 * exponent;
+    let rising_alone = rising_warp(depth, exponent, far);
+    let rising_nearest = rising_warp(nearest, exponent, far);
+    let rising = warped_mean_up_to_far(rising_alone, rising_nearest, far, rise, measured, reach);
     let least = max(minimum_variance, 1e-12);
-    let bound = warped_bound(stored.xy, rising, 2.0 * exponent * rising, least);
+    let bound = warped_bound(stored.xy, rising, rise * rising, least);
 //#if warps == two
 //#if format == float32
     let exponent_2 = min(FALLING, SINGLE_EXPONENT);
-    let falling = falling_warp(depth, exponent_2, SINGLE_FALLING_FAR);
+    let far_2 = single_falling_far(exponent_2);
 //#else
     let exponent_2 = min(FALLING, HALF_EXPONENT);
-    let falling = falling_warp(depth, exponent_2, HALF_FALLING_FAR);
+    let far_2 = HALF_FALLING_FAR;
 //#end
-    let lit = min(bound, warped_bound(stored.zw, falling, 2.0 * exponent_2 * falling, least));
+    let fall = 2.0 * exponent_2;
+    let falling_alone = falling_warp(depth, exponent_2, far_2);
+    let falling_nearest = falling_warp(nearest, exponent_2, far_2);
+    let falling = warped_mean_up_to_far(falling_alone, falling_nearest, -far_2, -fall, measured, reach);
+    let lit = min(bound, warped_bound(stored.zw, falling, fall * falling, least));
 //#else
     let lit = bound;
 //#end

@@ -1,7 +1,7 @@
 //! label: Moment shadow
 //! category: shadow
 //! synonyms: msm, msm4, moment shadow map, hamburger, soft shadow, filtered shadow, blurred shadow
-//! use: light_space, chebyshev, map_footprint, hamburger
+//! use: light_space, chebyshev, map_footprint, hamburger, receiver_within
 //! Shadow from four moments of depth: the least shadow that they allow (Peters and Klein 2015, Hamburger moment problem). Exact for two occluder depths above a receiver, and where a receiver ends within the filter; light bleeds only where three and more occluders lie apart. Slopes need a bias of about half the blur.
 //! option format: auto | float32 | unorm16 = float32 - Bits of each of the four moments. auto takes what the device can filter, with the care that 16 bits need. Devices that cannot filter 32 bits need unorm16 or manual sampling.
 //! option width: 1 | 3 | 5 | 7 | 9 | 11 | 13 | 15 | 17 | 19 | 21 | 23 | 25 = 5 - Texels across the blur of the map, in the coarsest view of a light with splits: the others are blurred as widely in metres.
@@ -87,11 +87,14 @@ fn moment_shadow(
 //#end
 //#end
 //#if metric == linear
-    let depth = saturate(light_depth_linear(space, position));
+    let measured = light_depth_linear(space, position);
+    let scale = 1.0;
 //#elif metric == zw
-    let depth = saturate(light_depth_zw(space, position));
+    let measured = light_depth_zw(space, position);
+    let scale = light_scale_zw(space, position);
 //#else
-    let depth = saturate(light_depth_radial(space, position));
+    let measured = light_depth_radial(space, position);
+    let scale = light_scale_radial(space, position);
 //#end
 //#if format == float32
     let wide = vec4f(0.0, 0.375, 0.0, 0.375);
@@ -101,15 +104,18 @@ fn moment_shadow(
     let moments = mix(decode_moments(stored), wide, moment_bias);
 //#end
     let plane = receiver_plane(space, position, normal);
-    let half_width = 0.5 * WIDTH * light_zoom(space);
-    let rise = dot(half_width, receiver_bounded_slope(space, plane) / vec2f(textureDimensions(map)));
-//#if metric == linear
-    let bias = slope_bias * rise;
-//#elif metric == zw
-    let bias = slope_bias * rise * light_scale_zw(space, position);
+    let size = vec2f(textureDimensions(map));
+    let blurred = 0.5 * WIDTH * light_zoom(space) / size;
+//#if mips == on
+    // What a pixel covers beyond the texels that it interpolates is part of the filter.
+    let covered = 0.5 * max(abs(uv_dx), abs(uv_dy));
+    let filtered = blurred + max(covered - 0.5 / size, vec2f(0.0));
 //#else
-    let bias = slope_bias * rise * light_scale_radial(space, position);
+    let filtered = blurred;
 //#end
+    let bias = slope_bias * dot(filtered, receiver_bounded_slope(space, plane)) * scale;
+    // The map holds what lies beyond the far plane as lying in it.
+    let depth = mean_up_to_far(measured, receiver_reach(space, plane, filtered) * scale);
     let lit = hamburger_visibility(moments, 2.0 * (depth - bias) - 1.0);
     let visibility = reduce_bleeding(lit, bleeding_reduction);
     return select(visibility, 1.0, receives < 0.5 || outside_light_map(space, position, uv));

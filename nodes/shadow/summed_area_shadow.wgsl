@@ -1,7 +1,7 @@
 //! label: Summed-area shadow
 //! category: shadow
 //! synonyms: satvsm, savsm, summed-area variance shadow map, variance shadow, filtered shadow
-//! use: light_space, summed_area
+//! use: light_space, summed_area, receiver_within
 //! Variance shadow from a summed-area table of moments (Lauritzen 2007): a box of any width, another at every pixel, costs the same sixteen reads. Whole numbers keep the table exact whatever its size; floats lose digits with the square of it. Light bleeds as in every variance shadow.
 //! option storage: uint32 | centred | float32 = uint32 - Whole numbers of 32 bits; floats around the middle of the range; or floats as they come, whose error grows four times with every doubling of the size.
 //! option fraction_bits: 16 | 18 | 20 | 22 = 18 - Digits of whole numbers after the binary point: each two more quarter the rounding of moments and halve the widest box, which is 256, 128, 64 or 32 texels.
@@ -77,7 +77,8 @@ fn summed_area_shadow(
     let uv_dy = abs(light_map_change(space, position, dpdy(point)));
     let texels = max(vec2f(wanted), (uv_dx + uv_dy) * size);
 //#end
-    let region = summed_box(plane.uv, min(texels, vec2f(widest)), size);
+    let box_width = min(texels, vec2f(widest));
+    let region = summed_box(plane.uv, box_width, size);
 //#if storage == uint32
     let moments = summed_mean(table, light_layer(space), region) / f32(1u << FRACTION_BITS);
     let mean = moments.x;
@@ -92,7 +93,8 @@ fn summed_area_shadow(
     let variance = moments.y - mean * mean;
 //#end
     // At the borders the middle of the box is another place of the receiver, at another depth.
-    let depth = receiver_depth(space, plane, region.center);
+    // Parts of texels are as deep as all of them: half a texel more at each end.
+    let depth = receiver_depth_within(space, plane, region.center, (box_width + 1.0) / size);
     let visibility = summed_bound(depth, mean, variance, minimum_variance, bleeding_reduction);
     return select(visibility, 1.0, receives < 0.5 || outside_light_map(space, position, plane.uv));
 }

@@ -1,7 +1,7 @@
 //! label: Summed-area soft shadow
 //! category: shadow
 //! synonyms: pcss, percentage closer soft shadow, vssm, variance soft shadow, satvsm, area light shadow, penumbra
-//! use: light_space, summed_area
+//! use: light_space, summed_area, receiver_within
 //! Soft shadow of a light with a size (Fernando 2005) from a summed-area table of moments: one box finds how far away the occluders are, another as wide as their penumbra filters (Lauritzen 2007; Yang and others 2010, section 3). Exact for one plane above another and a rectangular light, in wide boxes to half a texel; a round one is taken for the rectangle of equal variance. Wide boxes are cut into four by four, each with the depth that the receiver's plane has there (Yang and others 2010, section 4), so that slopes do not count as variance. It fails where the first box holds surfaces behind the receiver, which hide occluders from the mean and harden the edge; where occluders lie at several depths, which are taken for one and bleed; and where the penumbra is wider than the widest box, which cuts it off.
 //! option fraction_bits: 16 | 18 | 20 | 22 = 18 - Digits of the table's numbers after the binary point: each two more quarter the rounding of moments and halve the widest box, which is 256, 128, 64 or 32 texels.
 //! option build: compute | image = compute - How the table is made.
@@ -31,11 +31,37 @@ fn source_width(space: LightSpace, position: vec3f, size: vec2f, occluder: f32) 
 const PARTS: i32 = 4;
 const LEAST_CUT: f32 = 32.0;
 
-/// What a box says of the receiver: the lit share at most, with the reduction of bleeding, and how much nearer than the
-/// receiver the map is on average (linear depth), which is the dark share times the distance of what is there.
+/// What a box says of the receiver: the lit share at most, with the reduction of bleeding; or, in search of occluders, the dark
+/// share and that times their depth (linear), both times the dark share, so that of the parts of a box those count that
+/// know most.
 struct Seen {
     lit: f32,
-    nearer: f32,
+    dark: f32,
+    occluder: f32,
+}
+
+/// The same of a box, or a part of one, around `uv`, from its moments. In search of occluders the receiver's own moments are
+/// taken off: at grazing light its slope is so much variance that occluders would seem few, and so near to the light.
+fn seen_by_moments(
+    space: LightSpace,
+    plane: ReceiverPlane,
+    uv: vec2f,
+    width: vec2f,
+    moments: vec2f,
+    least_variance: f32,
+    reduction: f32,
+    search: bool,
+) -> Seen {
+    let variance = moments.y - moments.x * moments.x;
+    if (search) {
+        let own = receiver_moments_within(space, plane, uv, width);
+        let dark = 1.0 - summed_bound(own.x, moments.x, variance - own.y, least_variance, 0.0);
+        // The mean is that of what is dark and of the receiver here, which may be far from the shaded point.
+        let occluder = max(moments.x - (1.0 - dark) * own.x, 0.0);
+        return Seen(1.0 - dark, dark * dark, dark * occluder);
+    }
+    let depth = receiver_depth_within(space, plane, uv, width);
+    return Seen(summed_bound(depth, moments.x, variance, least_variance, reduction), 0.0, 0.0);
 }
 
 /// One box as a whole, with parts of texels.
@@ -46,13 +72,14 @@ fn seen_in_whole(
     width: vec2f,
     least_variance: f32,
     reduction: f32,
+    search: bool,
 ) -> Seen {
-    let region = summed_box(plane.uv, width, vec2f(textureDimensions(table)));
+    let size = vec2f(textureDimensions(table));
+    let region = summed_box(plane.uv, width, size);
     let moments = summed_mean(table, light_layer(space), region) * (1.0 / f32(1u << FRACTION_BITS));
-    let depth = receiver_depth(space, plane, region.center);
-    let variance = moments.y - moments.x * moments.x;
-    let lit = summed_bound(depth, moments.x, variance, least_variance, reduction);
-    return Seen(lit, max(depth - moments.x, 0.0));
+    // Parts of texels are as deep as all of them: half a texel more at each end.
+    let sides = (width + 1.0) / size;
+    return seen_by_moments(space, plane, region.center, sides, moments, least_variance, reduction, search);
 }
 
 /// The mean over the parts of a box, each of whole texels.
@@ -63,12 +90,13 @@ fn seen_in_parts(
     width: vec2f,
     least_variance: f32,
     reduction: f32,
+    search: bool,
 ) -> Seen {
     let size = vec2f(textureDimensions(table));
     let low = clamp(plane.uv * size - 0.5 * width, vec2f(0.0), size - 1.0);
     let high = clamp(plane.uv * size + 0.5 * width, vec2f(1.0), size);
     let layer = light_layer(space);
-    var seen = Seen(0.0, 0.0);
+    var seen = Seen(0.0, 0.0, 0.0);
     var total = 0.0;
     var above = array<vec2u, PARTS + 1>();
     for (var j = 0; j <= PARTS; j++) {
@@ -82,16 +110,19 @@ fn seen_in_parts(
                 let sum = (before[i] - before[i - 1]) - (above[i] - above[i - 1]);
                 let moments = vec2f(sum) * (1.0 / f32(1u << FRACTION_BITS)) / area;
                 let center = vec2f(columns.x + columns.y, rows.x + rows.y) * 0.5 / size;
-                let depth = receiver_depth(space, plane, center);
-                let variance = moments.y - moments.x * moments.x;
-                seen.lit += area * summed_bound(depth, moments.x, variance, least_variance, reduction);
-                seen.nearer += area * max(depth - moments.x, 0.0);
+                let sides = vec2f(columns.y - columns.x, rows.y - rows.x) / size;
+                let part =
+                    seen_by_moments(space, plane, center, sides, moments, least_variance, reduction, search);
+                seen.lit += area * part.lit;
+                seen.dark += area * part.dark;
+                seen.occluder += area * part.occluder;
                 total += area;
             }
         }
         above = before;
     }
-    return Seen(seen.lit / max(total, 1.0), seen.nearer / max(total, 1.0));
+    let share = 1.0 / max(total, 1.0);
+    return Seen(seen.lit * share, seen.dark * share, seen.occluder * share);
 }
 
 /// point (point world; = @position_world; hidden): The shaded point.
@@ -122,22 +153,22 @@ fn summed_area_soft_shadow(
     // Occluders are nearer than the receiver and beyond the near plane: there the light appears largest.
     let largest = softness * source_width(space, position, size, space.depth.x);
     let search = clamp(largest, vec2f(minimum_width), widest);
-    var found = Seen(1.0, 0.0);
+    var found = Seen(1.0, 0.0, 0.0);
     if (min(search.x, search.y) < LEAST_CUT) {
-        found = seen_in_whole(space, plane, table, search, minimum_variance, 0.0);
+        found = seen_in_whole(space, plane, table, search, minimum_variance, 0.0, true);
     } else {
-        found = seen_in_parts(space, plane, table, search, minimum_variance, 0.0);
+        found = seen_in_parts(space, plane, table, search, minimum_variance, 0.0, true);
     }
     // The mean over what is dark. Where next to nothing is, its distance does not matter.
-    let gap = found.nearer / max(1.0 - found.lit, 1e-3);
-    let occluder = max(position.z - gap / space.depth.z, space.depth.x);
+    let depth = found.occluder / max(found.dark, 1e-6);
+    let occluder = select(position.z, space.depth.x + depth / space.depth.z, found.dark > 1e-6);
 
     let width = clamp(softness * source_width(space, position, size, occluder), vec2f(minimum_width), widest);
-    var filtered = Seen(1.0, 0.0);
+    var filtered = Seen(1.0, 0.0, 0.0);
     if (min(width.x, width.y) < LEAST_CUT) {
-        filtered = seen_in_whole(space, plane, table, width, minimum_variance, bleeding_reduction);
+        filtered = seen_in_whole(space, plane, table, width, minimum_variance, bleeding_reduction, false);
     } else {
-        filtered = seen_in_parts(space, plane, table, width, minimum_variance, bleeding_reduction);
+        filtered = seen_in_parts(space, plane, table, width, minimum_variance, bleeding_reduction, false);
     }
     return select(filtered.lit, 1.0, receives < 0.5 || outside_light_map(space, position, plane.uv));
 }

@@ -7,7 +7,7 @@ use shadetree::render::Gpu;
 
 use super::lamp::{Lamp, PLAIN, Plate, SIDE, STEP, layers, sampled, under};
 use super::methods::{METHODS, Method};
-use crate::stage::{Item, Stage, View, gpu, renders, skipped};
+use crate::stage::{Item, Stage, View, gpu, light, renders, skipped, visibility};
 
 /// In full shadow under one wide plate at a height, where a speck far off keeps the sun's range.
 fn umbra(lamp: Lamp, height: f64) -> Stage {
@@ -110,6 +110,85 @@ fn minimum_variance_leaks_under_a_warp_by_its_law() {
             }
         }
     }
+}
+
+/// The falling warp is least at the far plane, and variances there are differences of its squares: what devices take for
+/// nothing, below 2^-126, must not be among them. Seen from afar, where a filter covers a part of the slope that counts.
+#[test]
+fn slopes_at_the_far_plane_stay_lit_under_both_warps() {
+    let Some(mut gpu) = gpu() else { return };
+    if !able(&gpu) {
+        return;
+    }
+    // Close to the corner of the ground that is farthest from the sun, in pixels of up to 0.2 m.
+    let view = View {
+        position: DVec3::new(-2.0, 4.0, -2.0),
+        target: DVec3::new(-6.0, 0.0, -6.0),
+        up: DVec3::Y,
+        half_height: 0.105,
+        size: (12, 12),
+    };
+    let stage = Stage::new(vec![Item::plane([16.0, 16.0], DMat4::IDENTITY)], view);
+    for falling in [5.0, 5.54, 10.0, 20.0, 40.0] {
+        for sampling in ["taps", "manual"] {
+            let options = format!("\"falling\": \"{falling}\", \"sampling\": \"{sampling}\"");
+            let sun = "\"direction\": (-1, -1.6, -1)";
+            let shader = light("directional_light", sun, "exponential_variance_shadow", "", &options);
+            let values = stage.look(&mut gpu, &visibility(&shader));
+            let least = values.into_iter().fold(1.0, f64::min);
+            // Of a filter with deviation s, the mean lies c s^2 behind its middle under the warp: 1 - c^2 s^2 is left.
+            let law = 1.0 - (falling * 0.02_f64).powi(2);
+            assert!(least > law, "{falling} {sampling}: {least}");
+        }
+    }
+}
+
+/// A lamp low above a ground that runs through the far plane of its maps, from before to behind.
+fn through_the_far_plane(lamp: &str, at: &str, shadow: &str, options: &str) -> (Stage, Compiled) {
+    let view = View {
+        position: DVec3::new(3.0, 1.5, 0.3),
+        target: DVec3::new(6.0, 0.0, 0.0),
+        up: DVec3::Y,
+        half_height: 0.1,
+        size: (160, 90),
+    };
+    let shader = visibility(&light(lamp, at, shadow, "", options));
+    (Stage::new(vec![Item::plane([40.0, 40.0], DMat4::IDENTITY)], view), shader)
+}
+
+/// Maps that hold no depth beyond the far plane bend what runs through it; the receiver is bent as much.
+#[test]
+fn the_ground_stays_lit_where_a_range_ends() {
+    let Some(mut gpu) = gpu() else { return };
+    if !able(&gpu) {
+        return;
+    }
+    let point = ("point_light", "\"position\": (0, 1, 0), \"range\": 6");
+    let spot = ("spot_light", "\"position\": (0, 1, 0), \"direction\": (1, -0.15, 0), \"near\": 1, \"range\": 6");
+    let mut dark = Vec::new();
+    for (lamp, at) in [point, spot] {
+        for (shadow, options) in [
+            ("exponential_shadow", ""),
+            ("exponential_shadow", "\"domain\": \"log\""),
+            ("exponential_shadow", "\"metric\": \"radial\", \"mips\": \"off\""),
+            ("exponential_shadow", "\"width\": \"15\", \"sampling\": \"manual\""),
+            ("exponential_variance_shadow", ""),
+            ("exponential_variance_shadow", "\"warps\": \"one\""),
+            ("exponential_variance_shadow", "\"metric\": \"radial\", \"width\": \"15\""),
+            ("exponential_variance_shadow", "\"metric\": \"zw\", \"sampling\": \"hardware\""),
+            ("summed_area_shadow", ""),
+            ("summed_area_soft_shadow", ""),
+            ("moment_shadow", ""),
+            ("variance_shadow", ""),
+        ] {
+            let (stage, shader) = through_the_far_plane(lamp, at, shadow, options);
+            let least = stage.look(&mut gpu, &shader).into_iter().fold(1.0, f64::min);
+            if least < 0.98 {
+                dark.push(format!("{lamp} {shadow} {options}: {least}"));
+            }
+        }
+    }
+    assert!(dark.is_empty(), "{}", dark.join("\n"));
 }
 
 /// The edge of a plate under an occluder, with the ground behind both: pixels of the plate with what is in their filter.

@@ -357,3 +357,37 @@ fn penumbrae_are_as_wide_as_similar_triangles_make_them() {
         assert!(values.iter().any(|v| (0.4..0.6).contains(v)), "the penumbra is seen");
     }
 }
+
+/// Under grazing light the receiver is as deep as the box that looks for occluders is wide, and its mean is far from the shaded
+/// point: occluders are where they are all the same, and penumbrae as wide as similar triangles make them.
+#[test]
+fn penumbrae_keep_their_width_under_grazing_light() {
+    let Some(mut gpu) = gpu() else { return };
+    // A lamp a metre above the ground, a tall plate a metre away whose edge runs up from z = 0.
+    let radius = 0.06;
+    let (point, spot) = ("point_light", "spot_light");
+    let at = format!("\"position\": (0, 1, 0), \"near\": 0.1, \"range\": 12, \"radius\": {radius}");
+    let aimed = format!("{at}, \"direction\": (1, 0, 0), \"outer_angle\": 45, \"inner_angle\": 44");
+    let plate =
+        DMat4::from_translation(DVec3::new(1.0, 1.0, 2.0)) * DMat4::from_rotation_z(std::f64::consts::FRAC_PI_2);
+    for (kind, lamp) in [(point, &at), (spot, &aimed)] {
+        let shader = visibility(&light(kind, lamp, "summed_area_soft_shadow", "\"bleeding_reduction\": 0", ""));
+        for distance in [3.0, 5.0, 8.0] {
+            let half = 0.75_f64.sqrt() * radius * (distance - 1.0);
+            let view = View::down((distance, 0.0), 2.0, 4.0 * half, (64, 64));
+            let items = vec![Item::plane([40.0, 40.0], DMat4::IDENTITY), Item::plane([2.0, 4.0], plate)];
+            let stage = Stage::new(items, view);
+            let values = stage.look(&mut gpu, &shader);
+            let near = |p: &DVec3| (p.x - distance).abs() < 0.1 * distance;
+            for (p, value) in stage.on_ground(&values).filter(|(p, _)| near(p)) {
+                let width = 2.0 * 0.75_f64.sqrt() * radius * (p.x - 1.0);
+                let expected = box_ramp(width, -p.z);
+                // Boxes that are cut end at whole texels: both ends are off by half a texel at most.
+                let texels = width / (2.0 * 1.0625 * p.x / 1024.0);
+                let bound = 1.0 / (texels - 1.0) + CLOSED_FORM + rounding("uint32", (p.x - 1.0) / 11.9, 1.0);
+                let what = format!("{kind} {distance} at {p}: {value} is not {expected} to {bound}");
+                assert!((value - expected).abs() < bound, "{what}");
+            }
+        }
+    }
+}

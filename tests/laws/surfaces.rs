@@ -137,6 +137,27 @@ fn exponentials_and_moments_hardly_darken_lit_slopes() {
     }
 }
 
+/// Far away a pixel covers many texels, whose slope is as much of the filter's as that of the blur.
+#[test]
+fn moments_do_not_darken_lit_ground_up_to_the_horizon() {
+    let Some(mut gpu) = gpu() else { return };
+    if !renders(&gpu, "rgba32float") {
+        return skipped(&format!("{} has no maps of 32-bit floats", gpu.adapter()));
+    }
+    let view = View {
+        position: DVec3::new(0.6, 1.1, 40.0),
+        target: DVec3::new(0.5, 0.0, 20.0),
+        up: DVec3::Y,
+        half_height: 0.04,
+        size: (40, 20),
+    };
+    let stage = Stage::new(vec![Item::plane([60.0, 80.0], DMat4::IDENTITY)], view);
+    let sun = "\"direction\": (1, -0.7, -0.15)";
+    let values = stage.look(&mut gpu, &visibility(&light("directional_light", sun, "moment_shadow", "", "")));
+    let least = values.into_iter().fold(1.0, f64::min);
+    assert!(least >= 1.0 - 0.031, "{least}");
+}
+
 /// Every shadow node with its defaults.
 const SHADOWS: [&str; 8] = [
     "hard_shadow",

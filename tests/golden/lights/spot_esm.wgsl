@@ -45,6 +45,17 @@ struct LightSpace {
     warp: vec4f,
 }
 
+struct ReceiverPlane {
+    /// Map coordinate of the shaded point.
+    uv: vec2f,
+    /// Distance of the shaded point along the light's axis, metres.
+    distance: f32,
+    /// Change over the whole map: of distance in metres (parallel) or of 1 / distance relative to here (perspective).
+    slope: vec2f,
+    /// Distance per metre across, at the shaded point.
+    rise: vec2f,
+}
+
 struct MapFootprint {
     level: f32,
     taps: f32,
@@ -80,6 +91,8 @@ fn cone_falloff(cosine: f32, inner_angle: f32, outer_angle: f32) -> f32 {
     return smoothstep(outer, inner, cosine);
 }
 
+const MIN_RECEIVER_COSINE: f32 = 0.015625;
+
 fn light_position(space: LightSpace, point: vec3f) -> vec3f {
     return (space.world_to_light * vec4f(point, 1.0)).xyz;
 }
@@ -104,6 +117,11 @@ fn light_layer(space: LightSpace) -> i32 {
     return i32(space.projection.w);
 }
 
+fn light_zoom(space: LightSpace) -> vec2f {
+    let shape = sqrt(space.projection.x / space.projection.y);
+    return max(space.source.w, 1.0) * vec2f(shape, 1.0 / shape);
+}
+
 fn light_map_change(space: LightSpace, position: vec3f, change: vec3f) -> vec2f {
     let moved = (space.world_to_light * vec4f(change, 0.0)).xyz;
     let perspective = (moved.xy - light_ray(space, position) * moved.z) / max(position.z, 1e-6);
@@ -113,6 +131,27 @@ fn light_map_change(space: LightSpace, position: vec3f, change: vec3f) -> vec2f 
 
 fn outside_light_map(space: LightSpace, position: vec3f, uv: vec2f) -> bool {
     return position.z < space.depth.x || any(uv < vec2f(0.0)) || any(uv > vec2f(1.0));
+}
+
+fn receiver_plane(space: LightSpace, position: vec3f, normal: vec3f) -> ReceiverPlane {
+    let perspective = space.projection.z > 0.5;
+    let n = (space.world_to_light * vec4f(normal, 0.0)).xyz;
+    // The ray through the point, scaled to one metre along the axis, so that n.ray = n.position / position.z.
+    let ray = vec3f(select(vec2f(0.0), light_ray(space, position), perspective), 1.0);
+    let facing = dot(n, ray);
+    let least = MIN_RECEIVER_COSINE * length(n) * length(ray);
+    // A normal of length zero says nothing about the plane: it counts as facing the light.
+    let bounded = max(max(abs(facing), least), 1e-30) * select(1.0, -1.0, facing < 0.0);
+    let ray_per_uv = vec2f(2.0, -2.0) / space.projection.xy;
+    return ReceiverPlane(light_map_uv(space, position), position.z, n.xy * ray_per_uv / bounded, n.xy / bounded);
+}
+
+fn receiver_slope(space: LightSpace, plane: ReceiverPlane) -> vec2f {
+    return abs(plane.slope) * select(1.0, plane.distance, space.projection.z > 0.5) * space.depth.z;
+}
+
+fn geometric_normal(point: vec3f) -> vec3f {
+    return cross(dpdx(point), dpdy(point));
 }
 
 fn reduce_bleeding(visibility: f32, amount: f32) -> f32 {
@@ -127,6 +166,11 @@ fn map_footprint(size: vec2f, uv_dx: vec2f, uv_dy: vec2f, most: f32) -> MapFootp
     let taps = clamp(ceil(longer / max(min(across, down), 1.0) - 0.01), 1.0, most);
     let level = log2(max(longer / taps, 1.0));
     return MapFootprint(level, taps, select(uv_dy, uv_dx, across > down) / taps);
+}
+
+fn footprint_reach(size: vec2f, uv_dx: vec2f, uv_dy: vec2f, most: f32) -> vec2f {
+    let footprint = map_footprint(size, uv_dx, uv_dy, most);
+    return 0.5 * footprint.taps * abs(footprint.step) + exp2(ceil(footprint.level)) / size;
 }
 
 fn sample_footprint(
@@ -145,6 +189,15 @@ fn sample_footprint(
         sum += textureSampleLevel(map, map_sampler, first + i * footprint.step, layer, footprint.level);
     }
     return sum / footprint.taps;
+}
+
+fn warped_mean_up_to_far(alone: f32, nearest: f32, farthest: f32, rate: f32, middle: f32, reach: f32) -> f32 {
+    let mean = ((farthest - nearest) / rate + farthest * (middle + reach - 1.0)) / max(2.0 * reach, 1e-9);
+    return select(alone, min(alone, mean), abs(middle - 1.0) < reach && reach > 1e-4);
+}
+
+fn receiver_reach(space: LightSpace, plane: ReceiverPlane, half_width: vec2f) -> f32 {
+    return dot(receiver_slope(space, plane), half_width);
 }
 
 fn spot_light(
@@ -166,6 +219,7 @@ fn spot_light(
 }
 
 const EXPONENT: f32 = 80;
+const WIDTH: f32 = 5;
 const ANISOTROPY: f32 = 16;
 
 fn exponential_shadow(
@@ -182,9 +236,20 @@ fn exponential_shadow(
     let uv_dx = light_map_change(space, position, dpdx(point));
     let uv_dy = light_map_change(space, position, dpdy(point));
     let stored = sample_footprint(map, tap_sampler, uv, layer, uv_dx, uv_dy, ANISOTROPY).x;
-    let depth = saturate(light_depth_linear(space, position));
+    let measured = light_depth_linear(space, position);
+    let scale = 1.0;
+    // The map holds what lies beyond the far plane as lying in it.
+    let size = vec2f(textureDimensions(map));
+    let blurred = (0.5 * WIDTH * light_zoom(space) + 1.0) / size;
+    let filtered = blurred + footprint_reach(size, uv_dx, uv_dy, ANISOTROPY);
+    let plane = receiver_plane(space, position, geometric_normal(point));
+    let reach = receiver_reach(space, plane, filtered) * scale;
     // No bias: the mean of the exponentials over a lit slope is above the exponential of its middle.
-    let ratio = stored * exp(EXPONENT * (1.0 - depth));
+    let exponent = EXPONENT;
+    let mean = stored;
+    let alone = exp(exponent * (saturate(measured) - 1.0));
+    let nearest = exp(exponent * (saturate(measured - reach) - 1.0));
+    let ratio = mean / warped_mean_up_to_far(alone, nearest, 1.0, exponent, measured, reach);
     let visibility = reduce_bleeding(min(ratio, 1.0), bleeding_reduction);
     return select(visibility, 1.0, receives < 0.5 || outside_light_map(space, position, uv));
 }

@@ -46,6 +46,17 @@ struct LightSpace {
     warp: vec4f,
 }
 
+struct ReceiverPlane {
+    /// Map coordinate of the shaded point.
+    uv: vec2f,
+    /// Distance of the shaded point along the light's axis, metres.
+    distance: f32,
+    /// Change over the whole map: of distance in metres (parallel) or of 1 / distance relative to here (perspective).
+    slope: vec2f,
+    /// Distance per metre across, at the shaded point.
+    rise: vec2f,
+}
+
 struct MapFootprint {
     level: f32,
     taps: f32,
@@ -81,6 +92,8 @@ fn cone_falloff(cosine: f32, inner_angle: f32, outer_angle: f32) -> f32 {
     return smoothstep(outer, inner, cosine);
 }
 
+const MIN_RECEIVER_COSINE: f32 = 0.015625;
+
 fn light_position(space: LightSpace, point: vec3f) -> vec3f {
     return (space.world_to_light * vec4f(point, 1.0)).xyz;
 }
@@ -105,6 +118,11 @@ fn light_layer(space: LightSpace) -> i32 {
     return i32(space.projection.w);
 }
 
+fn light_zoom(space: LightSpace) -> vec2f {
+    let shape = sqrt(space.projection.x / space.projection.y);
+    return max(space.source.w, 1.0) * vec2f(shape, 1.0 / shape);
+}
+
 fn light_map_change(space: LightSpace, position: vec3f, change: vec3f) -> vec2f {
     let moved = (space.world_to_light * vec4f(change, 0.0)).xyz;
     let perspective = (moved.xy - light_ray(space, position) * moved.z) / max(position.z, 1e-6);
@@ -114,6 +132,27 @@ fn light_map_change(space: LightSpace, position: vec3f, change: vec3f) -> vec2f 
 
 fn outside_light_map(space: LightSpace, position: vec3f, uv: vec2f) -> bool {
     return position.z < space.depth.x || any(uv < vec2f(0.0)) || any(uv > vec2f(1.0));
+}
+
+fn receiver_plane(space: LightSpace, position: vec3f, normal: vec3f) -> ReceiverPlane {
+    let perspective = space.projection.z > 0.5;
+    let n = (space.world_to_light * vec4f(normal, 0.0)).xyz;
+    // The ray through the point, scaled to one metre along the axis, so that n.ray = n.position / position.z.
+    let ray = vec3f(select(vec2f(0.0), light_ray(space, position), perspective), 1.0);
+    let facing = dot(n, ray);
+    let least = MIN_RECEIVER_COSINE * length(n) * length(ray);
+    // A normal of length zero says nothing about the plane: it counts as facing the light.
+    let bounded = max(max(abs(facing), least), 1e-30) * select(1.0, -1.0, facing < 0.0);
+    let ray_per_uv = vec2f(2.0, -2.0) / space.projection.xy;
+    return ReceiverPlane(light_map_uv(space, position), position.z, n.xy * ray_per_uv / bounded, n.xy / bounded);
+}
+
+fn receiver_slope(space: LightSpace, plane: ReceiverPlane) -> vec2f {
+    return abs(plane.slope) * select(1.0, plane.distance, space.projection.z > 0.5) * space.depth.z;
+}
+
+fn geometric_normal(point: vec3f) -> vec3f {
+    return cross(dpdx(point), dpdy(point));
 }
 
 fn chebyshev_bound(variance: f32, behind: f32) -> f32 {
@@ -132,6 +171,11 @@ fn map_footprint(size: vec2f, uv_dx: vec2f, uv_dy: vec2f, most: f32) -> MapFootp
     let taps = clamp(ceil(longer / max(min(across, down), 1.0) - 0.01), 1.0, most);
     let level = log2(max(longer / taps, 1.0));
     return MapFootprint(level, taps, select(uv_dy, uv_dx, across > down) / taps);
+}
+
+fn footprint_reach(size: vec2f, uv_dx: vec2f, uv_dy: vec2f, most: f32) -> vec2f {
+    let footprint = map_footprint(size, uv_dx, uv_dy, most);
+    return 0.5 * footprint.taps * abs(footprint.step) + exp2(ceil(footprint.level)) / size;
 }
 
 fn sample_footprint(
@@ -159,6 +203,15 @@ fn rising_warp(depth: f32, exponent: f32, far: f32) -> f32 {
     return far * exp(2.0 * exponent * (depth - 1.0));
 }
 
+fn warped_mean_up_to_far(alone: f32, nearest: f32, farthest: f32, rate: f32, middle: f32, reach: f32) -> f32 {
+    let mean = ((farthest - nearest) / rate + farthest * (middle + reach - 1.0)) / max(2.0 * reach, 1e-9);
+    return select(alone, min(alone, mean), abs(middle - 1.0) < reach && reach > 1e-4);
+}
+
+fn receiver_reach(space: LightSpace, plane: ReceiverPlane, half_width: vec2f) -> f32 {
+    return dot(receiver_slope(space, plane), half_width);
+}
+
 fn spot_light(
     point: vec3f,
     position: vec3f,
@@ -178,6 +231,7 @@ fn spot_light(
 }
 
 const EXPONENT: f32 = 40;
+const WIDTH: f32 = 5;
 const ANISOTROPY: f32 = 16;
 
 fn exponential_variance_shadow(
@@ -195,11 +249,24 @@ fn exponential_variance_shadow(
     let uv_dx = light_map_change(space, position, dpdx(point));
     let uv_dy = light_map_change(space, position, dpdy(point));
     let stored = sample_footprint(map, tap_sampler, uv, layer, uv_dx, uv_dy, ANISOTROPY);
-    let depth = saturate(light_depth_linear(space, position));
+    let measured = light_depth_linear(space, position);
+    let scale = 1.0;
+    // The map holds what lies beyond the far plane as lying in it.
+    let size = vec2f(textureDimensions(map));
+    let blurred = (0.5 * WIDTH * light_zoom(space) + 1.0) / size;
+    let filtered = blurred + footprint_reach(size, uv_dx, uv_dy, ANISOTROPY);
+    let plane = receiver_plane(space, position, geometric_normal(point));
+    let reach = receiver_reach(space, plane, filtered) * scale;
+    let depth = saturate(measured);
+    let nearest = saturate(measured - reach);
     let exponent = min(EXPONENT, SINGLE_EXPONENT);
-    let rising = rising_warp(depth, exponent, SINGLE_RISING_FAR);
+    let far = SINGLE_RISING_FAR;
+    let rise = 2.0 * exponent;
+    let rising_alone = rising_warp(depth, exponent, far);
+    let rising_nearest = rising_warp(nearest, exponent, far);
+    let rising = warped_mean_up_to_far(rising_alone, rising_nearest, far, rise, measured, reach);
     let least = max(minimum_variance, 1e-12);
-    let bound = warped_bound(stored.xy, rising, 2.0 * exponent * rising, least);
+    let bound = warped_bound(stored.xy, rising, rise * rising, least);
     let lit = bound;
     let visibility = reduce_bleeding(lit, bleeding_reduction);
     return select(visibility, 1.0, receives < 0.5 || outside_light_map(space, position, uv));

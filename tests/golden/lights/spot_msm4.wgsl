@@ -223,6 +223,15 @@ fn hamburger_visibility(moments: vec4f, depth: f32) -> f32 {
     return select(lit, 1.0, depth <= near);
 }
 
+fn mean_up_to_far(middle: f32, reach: f32) -> f32 {
+    let beyond = clamp(middle + reach - 1.0, 0.0, 2.0 * reach);
+    return saturate(middle - beyond * beyond / max(4.0 * reach, 1e-9) - max(middle - reach - 1.0, 0.0));
+}
+
+fn receiver_reach(space: LightSpace, plane: ReceiverPlane, half_width: vec2f) -> f32 {
+    return dot(receiver_slope(space, plane), half_width);
+}
+
 fn spot_light(
     point: vec3f,
     position: vec3f,
@@ -261,13 +270,19 @@ fn moment_shadow(
     let uv_dx = light_map_change(space, position, dpdx(point));
     let uv_dy = light_map_change(space, position, dpdy(point));
     let stored = sample_footprint(map, tap_sampler, uv, layer, uv_dx, uv_dy, ANISOTROPY);
-    let depth = saturate(light_depth_linear(space, position));
+    let measured = light_depth_linear(space, position);
+    let scale = 1.0;
     let wide = vec4f(0.0, 0.375, 0.0, 0.375);
     let moments = mix(stored, wide, moment_bias);
     let plane = receiver_plane(space, position, normal);
-    let half_width = 0.5 * WIDTH * light_zoom(space);
-    let rise = dot(half_width, receiver_bounded_slope(space, plane) / vec2f(textureDimensions(map)));
-    let bias = slope_bias * rise;
+    let size = vec2f(textureDimensions(map));
+    let blurred = 0.5 * WIDTH * light_zoom(space) / size;
+    // What a pixel covers beyond the texels that it interpolates is part of the filter.
+    let covered = 0.5 * max(abs(uv_dx), abs(uv_dy));
+    let filtered = blurred + max(covered - 0.5 / size, vec2f(0.0));
+    let bias = slope_bias * dot(filtered, receiver_bounded_slope(space, plane)) * scale;
+    // The map holds what lies beyond the far plane as lying in it.
+    let depth = mean_up_to_far(measured, receiver_reach(space, plane, filtered) * scale);
     let lit = hamburger_visibility(moments, 2.0 * (depth - bias) - 1.0);
     let visibility = reduce_bleeding(lit, bleeding_reduction);
     return select(visibility, 1.0, receives < 0.5 || outside_light_map(space, position, uv));

@@ -162,8 +162,8 @@ fn receiver_distance(space: LightSpace, plane: ReceiverPlane, uv: vec2f) -> f32 
     return min(select(parallel, perspective, is_perspective), plane.distance + MAX_RETREAT * across);
 }
 
-fn receiver_depth(space: LightSpace, plane: ReceiverPlane, uv: vec2f) -> f32 {
-    return saturate(light_linear_depth(space, receiver_distance(space, plane, uv)));
+fn receiver_slope(space: LightSpace, plane: ReceiverPlane) -> vec2f {
+    return abs(plane.slope) * select(1.0, plane.distance, space.projection.z > 0.5) * space.depth.z;
 }
 
 fn geometric_normal(point: vec3f) -> vec3f {
@@ -228,6 +228,23 @@ fn summed_bound(depth: f32, mean: f32, variance: f32, least_variance: f32, reduc
     return reduce_bleeding(chebyshev_bound(max(variance, max(least_variance, 1e-12)), behind), reduction);
 }
 
+fn mean_up_to_far(middle: f32, reach: f32) -> f32 {
+    let beyond = clamp(middle + reach - 1.0, 0.0, 2.0 * reach);
+    return saturate(middle - beyond * beyond / max(4.0 * reach, 1e-9) - max(middle - reach - 1.0, 0.0));
+}
+
+fn receiver_rise(space: LightSpace, plane: ReceiverPlane, uv: vec2f, width: vec2f) -> vec2f {
+    // 1 / distance is even in a perspective, so that distance grows with its own square.
+    let growth = receiver_distance(space, plane, uv) / max(plane.distance, 1e-6);
+    let stretch = select(1.0, growth * growth, space.projection.z > 0.5);
+    return receiver_slope(space, plane) * (0.5 * stretch) * width;
+}
+
+fn receiver_depth_within(space: LightSpace, plane: ReceiverPlane, uv: vec2f, width: vec2f) -> f32 {
+    let rise = receiver_rise(space, plane, uv, width);
+    return mean_up_to_far(light_linear_depth(space, receiver_distance(space, plane, uv)), rise.x + rise.y);
+}
+
 fn spot_light(
     point: vec3f,
     position: vec3f,
@@ -267,12 +284,14 @@ fn summed_area_shadow(
     let uv_dx = abs(light_map_change(space, position, dpdx(point)));
     let uv_dy = abs(light_map_change(space, position, dpdy(point)));
     let texels = max(vec2f(wanted), (uv_dx + uv_dy) * size);
-    let region = summed_box(plane.uv, min(texels, vec2f(widest)), size);
+    let box_width = min(texels, vec2f(widest));
+    let region = summed_box(plane.uv, box_width, size);
     let moments = summed_mean(table, light_layer(space), region) / f32(1u << FRACTION_BITS);
     let mean = moments.x;
     let variance = moments.y - mean * mean;
     // At the borders the middle of the box is another place of the receiver, at another depth.
-    let depth = receiver_depth(space, plane, region.center);
+    // Parts of texels are as deep as all of them: half a texel more at each end.
+    let depth = receiver_depth_within(space, plane, region.center, (box_width + 1.0) / size);
     let visibility = summed_bound(depth, mean, variance, minimum_variance, bleeding_reduction);
     return select(visibility, 1.0, receives < 0.5 || outside_light_map(space, position, plane.uv));
 }

@@ -86,7 +86,8 @@ struct SpotLight {
 
 struct Seen {
     lit: f32,
-    nearer: f32,
+    dark: f32,
+    occluder: f32,
 }
 
 @group(0) @binding(0) var<uniform> frame: Frame;
@@ -161,8 +162,8 @@ fn receiver_distance(space: LightSpace, plane: ReceiverPlane, uv: vec2f) -> f32 
     return min(select(parallel, perspective, is_perspective), plane.distance + MAX_RETREAT * across);
 }
 
-fn receiver_depth(space: LightSpace, plane: ReceiverPlane, uv: vec2f) -> f32 {
-    return saturate(light_linear_depth(space, receiver_distance(space, plane, uv)));
+fn receiver_slope(space: LightSpace, plane: ReceiverPlane) -> vec2f {
+    return abs(plane.slope) * select(1.0, plane.distance, space.projection.z > 0.5) * space.depth.z;
 }
 
 fn geometric_normal(point: vec3f) -> vec3f {
@@ -227,6 +228,42 @@ fn summed_bound(depth: f32, mean: f32, variance: f32, least_variance: f32, reduc
     return reduce_bleeding(chebyshev_bound(max(variance, max(least_variance, 1e-12)), behind), reduction);
 }
 
+fn mean_up_to_far(middle: f32, reach: f32) -> f32 {
+    let beyond = clamp(middle + reach - 1.0, 0.0, 2.0 * reach);
+    return saturate(middle - beyond * beyond / max(4.0 * reach, 1e-9) - max(middle - reach - 1.0, 0.0));
+}
+
+fn receiver_rise(space: LightSpace, plane: ReceiverPlane, uv: vec2f, width: vec2f) -> vec2f {
+    // 1 / distance is even in a perspective, so that distance grows with its own square.
+    let growth = receiver_distance(space, plane, uv) / max(plane.distance, 1e-6);
+    let stretch = select(1.0, growth * growth, space.projection.z > 0.5);
+    return receiver_slope(space, plane) * (0.5 * stretch) * width;
+}
+
+fn receiver_depth_within(space: LightSpace, plane: ReceiverPlane, uv: vec2f, width: vec2f) -> f32 {
+    let rise = receiver_rise(space, plane, uv, width);
+    return mean_up_to_far(light_linear_depth(space, receiver_distance(space, plane, uv)), rise.x + rise.y);
+}
+
+fn receiver_moments_within(space: LightSpace, plane: ReceiverPlane, uv: vec2f, width: vec2f) -> vec2f {
+    let distance = receiver_distance(space, plane, uv);
+    let rise = length(receiver_rise(space, plane, uv, width));
+    let depth = light_linear_depth(space, distance);
+    let even = vec2f(mean_up_to_far(depth, rise), rise * rise * (1.0 / 3.0));
+    // Half the spread of 1 / distance, in parts of its middle; as receivers elsewhere, within four times the distance.
+    let spread = rise / (space.depth.z * max(distance, 1e-6));
+    let middle = 1.0 / max(distance, 1e-6);
+    let farthest = 1.0 / space.depth.y;
+    let high = middle * (1.0 + max(spread, 0.05));
+    let low = middle * max(1.0 - max(spread, 0.05), 0.25);
+    let bend = clamp(farthest, low, high);
+    let mean = ((bend - low) / farthest + log(high / bend)) / (high - low);
+    let square = ((bend - low) / (farthest * farthest) + (1.0 / bend - 1.0 / high)) / (high - low);
+    let variance = max(square - mean * mean, 0.0) * space.depth.z * space.depth.z;
+    let uneven = vec2f(saturate(light_linear_depth(space, mean)), variance);
+    return select(even, uneven, space.projection.z > 0.5 && spread > 0.05);
+}
+
 fn spot_light(
     point: vec3f,
     position: vec3f,
@@ -261,6 +298,28 @@ fn source_width(space: LightSpace, position: vec3f, size: vec2f, occluder: f32) 
 const PARTS: i32 = 4;
 const LEAST_CUT: f32 = 32.0;
 
+fn seen_by_moments(
+    space: LightSpace,
+    plane: ReceiverPlane,
+    uv: vec2f,
+    width: vec2f,
+    moments: vec2f,
+    least_variance: f32,
+    reduction: f32,
+    search: bool,
+) -> Seen {
+    let variance = moments.y - moments.x * moments.x;
+    if (search) {
+        let own = receiver_moments_within(space, plane, uv, width);
+        let dark = 1.0 - summed_bound(own.x, moments.x, variance - own.y, least_variance, 0.0);
+        // The mean is that of what is dark and of the receiver here, which may be far from the shaded point.
+        let occluder = max(moments.x - (1.0 - dark) * own.x, 0.0);
+        return Seen(1.0 - dark, dark * dark, dark * occluder);
+    }
+    let depth = receiver_depth_within(space, plane, uv, width);
+    return Seen(summed_bound(depth, moments.x, variance, least_variance, reduction), 0.0, 0.0);
+}
+
 fn seen_in_whole(
     space: LightSpace,
     plane: ReceiverPlane,
@@ -268,13 +327,14 @@ fn seen_in_whole(
     width: vec2f,
     least_variance: f32,
     reduction: f32,
+    search: bool,
 ) -> Seen {
-    let region = summed_box(plane.uv, width, vec2f(textureDimensions(table)));
+    let size = vec2f(textureDimensions(table));
+    let region = summed_box(plane.uv, width, size);
     let moments = summed_mean(table, light_layer(space), region) * (1.0 / f32(1u << FRACTION_BITS));
-    let depth = receiver_depth(space, plane, region.center);
-    let variance = moments.y - moments.x * moments.x;
-    let lit = summed_bound(depth, moments.x, variance, least_variance, reduction);
-    return Seen(lit, max(depth - moments.x, 0.0));
+    // Parts of texels are as deep as all of them: half a texel more at each end.
+    let sides = (width + 1.0) / size;
+    return seen_by_moments(space, plane, region.center, sides, moments, least_variance, reduction, search);
 }
 
 fn seen_in_parts(
@@ -284,12 +344,13 @@ fn seen_in_parts(
     width: vec2f,
     least_variance: f32,
     reduction: f32,
+    search: bool,
 ) -> Seen {
     let size = vec2f(textureDimensions(table));
     let low = clamp(plane.uv * size - 0.5 * width, vec2f(0.0), size - 1.0);
     let high = clamp(plane.uv * size + 0.5 * width, vec2f(1.0), size);
     let layer = light_layer(space);
-    var seen = Seen(0.0, 0.0);
+    var seen = Seen(0.0, 0.0, 0.0);
     var total = 0.0;
     var above = array<vec2u, PARTS + 1>();
     for (var j = 0; j <= PARTS; j++) {
@@ -303,16 +364,19 @@ fn seen_in_parts(
                 let sum = (before[i] - before[i - 1]) - (above[i] - above[i - 1]);
                 let moments = vec2f(sum) * (1.0 / f32(1u << FRACTION_BITS)) / area;
                 let center = vec2f(columns.x + columns.y, rows.x + rows.y) * 0.5 / size;
-                let depth = receiver_depth(space, plane, center);
-                let variance = moments.y - moments.x * moments.x;
-                seen.lit += area * summed_bound(depth, moments.x, variance, least_variance, reduction);
-                seen.nearer += area * max(depth - moments.x, 0.0);
+                let sides = vec2f(columns.y - columns.x, rows.y - rows.x) / size;
+                let part =
+                    seen_by_moments(space, plane, center, sides, moments, least_variance, reduction, search);
+                seen.lit += area * part.lit;
+                seen.dark += area * part.dark;
+                seen.occluder += area * part.occluder;
                 total += area;
             }
         }
         above = before;
     }
-    return Seen(seen.lit / max(total, 1.0), seen.nearer / max(total, 1.0));
+    let share = 1.0 / max(total, 1.0);
+    return Seen(seen.lit * share, seen.dark * share, seen.occluder * share);
 }
 
 fn summed_area_soft_shadow(
@@ -334,22 +398,22 @@ fn summed_area_soft_shadow(
     // Occluders are nearer than the receiver and beyond the near plane: there the light appears largest.
     let largest = softness * source_width(space, position, size, space.depth.x);
     let search = clamp(largest, vec2f(minimum_width), widest);
-    var found = Seen(1.0, 0.0);
+    var found = Seen(1.0, 0.0, 0.0);
     if (min(search.x, search.y) < LEAST_CUT) {
-        found = seen_in_whole(space, plane, table, search, minimum_variance, 0.0);
+        found = seen_in_whole(space, plane, table, search, minimum_variance, 0.0, true);
     } else {
-        found = seen_in_parts(space, plane, table, search, minimum_variance, 0.0);
+        found = seen_in_parts(space, plane, table, search, minimum_variance, 0.0, true);
     }
     // The mean over what is dark. Where next to nothing is, its distance does not matter.
-    let gap = found.nearer / max(1.0 - found.lit, 1e-3);
-    let occluder = max(position.z - gap / space.depth.z, space.depth.x);
+    let depth = found.occluder / max(found.dark, 1e-6);
+    let occluder = select(position.z, space.depth.x + depth / space.depth.z, found.dark > 1e-6);
 
     let width = clamp(softness * source_width(space, position, size, occluder), vec2f(minimum_width), widest);
-    var filtered = Seen(1.0, 0.0);
+    var filtered = Seen(1.0, 0.0, 0.0);
     if (min(width.x, width.y) < LEAST_CUT) {
-        filtered = seen_in_whole(space, plane, table, width, minimum_variance, bleeding_reduction);
+        filtered = seen_in_whole(space, plane, table, width, minimum_variance, bleeding_reduction, false);
     } else {
-        filtered = seen_in_parts(space, plane, table, width, minimum_variance, bleeding_reduction);
+        filtered = seen_in_parts(space, plane, table, width, minimum_variance, bleeding_reduction, false);
     }
     return select(filtered.lit, 1.0, receives < 0.5 || outside_light_map(space, position, plane.uv));
 }
