@@ -18,7 +18,9 @@ impl Editor {
     /// Runs the commands whose keys were pressed. Keys without Ctrl or Alt belong to a text that is being typed, where
     /// there is one.
     pub(super) fn keys(&mut self, ctx: &egui::Context) {
-        let typing = ctx.memory(|m| m.focused()).is_some() && ctx.egui_wants_keyboard_input();
+        let typing = ctx.text_edit_focused();
+        let focused = ctx.memory(|m| m.focused());
+        let elsewhere = focused.is_some() && focused != self.canvas_id;
         let canvas = self.canvas_has_pointer;
         let mut run = Vec::new();
         ctx.input_mut(|input| {
@@ -28,6 +30,10 @@ impl Editor {
             for (command, key) in keys {
                 let plain = !key.modifiers.command && !key.modifiers.alt;
                 if typing && (plain || takes_text(command)) {
+                    continue;
+                }
+                // Keys that work a widget belong to the one that has the focus.
+                if elsewhere && plain && works_widgets(key.logical_key) {
                     continue;
                 }
                 // Tab walks through the widgets except over the canvas.
@@ -472,6 +478,12 @@ fn settled(tab: &super::tab::Tab) -> (crate::graph::Graph, Edit) {
 /// How many modifiers a key has.
 fn weight(m: Modifiers) -> u8 {
     u8::from(m.command) + u8::from(m.shift) + u8::from(m.alt)
+}
+
+/// Whether a key works sliders, buttons and lists.
+fn works_widgets(key: egui::Key) -> bool {
+    use egui::Key;
+    matches!(key, Key::ArrowUp | Key::ArrowDown | Key::ArrowLeft | Key::ArrowRight | Key::Space | Key::Enter | Key::Tab)
 }
 
 /// Whether a key means something else to a text that is being typed.

@@ -92,6 +92,7 @@ pub struct Editor {
     /// Where the canvas lies, for commands that put something in its middle.
     pub(super) canvas: egui::Rect,
     pub(super) canvas_has_pointer: bool,
+    pub(super) canvas_id: Option<egui::Id>,
     /// Text that was copied, where the system has no clipboard.
     pub(super) clipboard: String,
     pub(super) last_selected: Option<String>,
@@ -148,6 +149,7 @@ impl Editor {
             looked_at: Instant::now(),
             canvas: egui::Rect::ZERO,
             canvas_has_pointer: false,
+            canvas_id: None,
             clipboard: String::new(),
             last_selected: None,
         };

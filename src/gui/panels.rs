@@ -249,6 +249,7 @@ impl Editor {
         let (response, wishes) = canvas::show(ui, tab, &around);
         self.canvas = response.rect;
         self.canvas_has_pointer = response.contains_pointer();
+        self.canvas_id = Some(response.id);
         if tab.graph().nodes.is_empty() {
             let text = "Press Space or right-click to add a node.\nCtrl+Shift+O opens an example.";
             ui.painter().text(

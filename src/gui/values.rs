@@ -101,13 +101,12 @@ fn numbers_edit(ui: &mut Ui, port: &PortView, numbers: &mut [f64], label: Id, go
         return color_edit(ui, numbers, label, going_on);
     }
     if let ([x], Some(least), Some(most)) = (&mut *numbers, least, most) {
-        let mut slider = Slider::new(x, least..=most).suffix(&suffix).clamping(egui::SliderClamping::Always);
+        // Showing a value must not change it: only what a person does is rounded or kept within the range.
+        let mut slider = Slider::new(x, least..=most).suffix(&suffix).clamping(egui::SliderClamping::Edits);
         if whole {
             slider = slider.integer();
         } else if least > 0.0 && most / least > 90.0 {
             slider = slider.logarithmic(true);
-        } else {
-            slider = slider.max_decimals(4);
         }
         let response = ui.add(slider).labelled_by(label);
         *going_on = response.dragged() || response.has_focus();
@@ -121,8 +120,11 @@ fn numbers_edit(ui: &mut Ui, port: &PortView, numbers: &mut [f64], label: Id, go
             ui.spacing_mut().item_spacing.x = 3.0;
             for (i, x) in chunk.iter_mut().enumerate() {
                 let speed = if whole { 0.1 } else { (x.abs() * 0.01).clamp(0.002, 10.0) };
-                let mut drag =
-                    DragValue::new(x).range(range.clone()).speed(speed).max_decimals(if whole { 0 } else { 5 });
+                let mut drag = DragValue::new(x)
+                    .range(range.clone())
+                    .clamp_existing_to_range(false)
+                    .speed(speed)
+                    .max_decimals(if whole { 0 } else { 5 });
                 if columns == 1 {
                     drag = drag.suffix(&suffix);
                 }
@@ -162,8 +164,15 @@ fn color_edit(ui: &mut Ui, numbers: &mut [f64], label: Id, going_on: &mut bool) 
             *going_on = true;
         }
         for x in numbers.iter_mut() {
-            let response =
-                ui.add(DragValue::new(x).range(0.0..=f64::INFINITY).speed(0.005).max_decimals(3)).labelled_by(label);
+            let response = ui
+                .add(
+                    DragValue::new(x)
+                        .range(0.0..=f64::INFINITY)
+                        .clamp_existing_to_range(false)
+                        .speed(0.005)
+                        .max_decimals(3),
+                )
+                .labelled_by(label);
             *going_on |= response.dragged() || response.has_focus();
             changed |= response.changed();
         }

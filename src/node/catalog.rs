@@ -245,12 +245,17 @@ impl Catalog {
     /// Node files that have to do with every word of `query`, best first: kind, label, synonym, category, description.
     pub fn search(&self, query: &str) -> Vec<&Arc<NodeFile>> {
         let words: Vec<String> = query.to_lowercase().split_whitespace().take(16).map(str::to_owned).collect();
-        let mut ranked: Vec<(usize, &str, &Arc<NodeFile>)> = Vec::new();
+        let phrase = words.join(" ");
+        let mut ranked: Vec<((u8, usize), &str, &Arc<NodeFile>)> = Vec::new();
         for (kind, file) in &self.files {
             let Ok(header) = file.header() else { continue };
             let scores: Option<Vec<usize>> = words.iter().map(|w| score(kind, &header, w)).collect();
             if let Some(scores) = scores {
-                ranked.push((scores.iter().sum(), kind, file));
+                // What is called by all the words comes before what has each of them somewhere.
+                let label = header.label.to_lowercase();
+                let whole = |name: &str| if name == phrase { 0 } else { 1 + u8::from(!name.starts_with(&phrase)) };
+                let nearest = whole(&label).min(whole(&kind.replace('_', " ")));
+                ranked.push(((nearest, scores.iter().sum()), kind, file));
             }
         }
         ranked.sort_by_key(|(score, kind, _)| (*score, *kind));

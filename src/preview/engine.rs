@@ -16,7 +16,8 @@ use crate::studio::{Failure, FailureKind};
 /// Called when an answer is ready, from any thread.
 type Wake = Arc<dyn Fn() + Send + Sync>;
 
-/// Makes shaders and pictures in the background. Dropping it ends its threads, and waits for none of them.
+/// Makes shaders and pictures in the background. Dropping it ends its threads; it waits a while for those that are about
+/// to end, and for none that was left behind.
 pub struct Engine {
     shared: Arc<Shared>,
 }
@@ -29,11 +30,17 @@ struct Shared {
     to_compile: Condvar,
     /// Something is to be rendered.
     to_render: Condvar,
+    /// A thread has ended.
+    gone: Condvar,
 }
 
 #[derive(Default)]
 struct State {
     ended: bool,
+    /// Threads that have not ended.
+    running: usize,
+    /// Threads of these that were left behind.
+    left_behind: usize,
     request: Option<Request>,
     thumbnails: VecDeque<Request>,
     picture: Option<Work>,
@@ -84,6 +91,7 @@ impl Engine {
             state: Mutex::new(State::default()),
             to_compile: Condvar::new(),
             to_render: Condvar::new(),
+            gone: Condvar::new(),
         });
         let engine = Self { shared };
         engine.spawn("compile", compile);
@@ -92,8 +100,10 @@ impl Engine {
     }
 
     fn spawn(&self, name: &str, work: impl FnOnce(&Arc<Shared>) + Send + 'static) {
-        let shared = self.shared.clone();
-        if let Err(error) = thread::Builder::new().name(name.into()).spawn(move || work(&shared)) {
+        self.shared.state().running += 1;
+        let running = Running(self.shared.clone());
+        // Where no thread can be started, the count goes down as what it was to do is dropped.
+        if let Err(error) = thread::Builder::new().name(name.into()).spawn(move || work(&running.0)) {
             let message = format!("no thread could be started: {error}");
             self.shared.answer(Answer::Failed { revision: 0, message, help: None });
         }
@@ -131,6 +141,7 @@ impl Engine {
     pub fn abandon(&mut self) {
         let mut state = self.shared.state();
         state.renderer += 1;
+        state.left_behind += 1;
         state.drawing = None;
         state.picture = None;
         state.small.clear();
@@ -195,6 +206,24 @@ impl Drop for Engine {
         drop(state);
         self.shared.to_compile.notify_all();
         self.shared.to_render.notify_all();
+        // A driver that is unloaded under a thread that uses it takes the program with it.
+        let busy = |state: &mut State| state.running > state.left_behind;
+        let _ = self.shared.gone.wait_timeout_while(self.shared.state(), PATIENCE, busy);
+    }
+}
+
+/// How long threads have to end.
+const PATIENCE: Duration = Duration::from_secs(10);
+
+/// Counts a thread for as long as it runs.
+struct Running(Arc<Shared>);
+
+impl Drop for Running {
+    fn drop(&mut self) {
+        let mut state = self.0.state();
+        state.running = state.running.saturating_sub(1);
+        drop(state);
+        self.0.gone.notify_all();
     }
 }
 
@@ -270,7 +299,11 @@ fn render(shared: &Arc<Shared>, number: u64) {
     loop {
         let mut state = shared.state();
         let (work, small) = loop {
-            if state.ended || state.renderer != number {
+            if state.renderer != number {
+                state.left_behind = state.left_behind.saturating_sub(1);
+                return;
+            }
+            if state.ended {
                 return;
             }
             if let Some(work) = state.picture.take() {
@@ -296,6 +329,8 @@ fn render(shared: &Arc<Shared>, number: u64) {
         let result = guarded(|| renderer.picture(&work, &drawing));
         let mut state = shared.state();
         if state.renderer != number {
+            // It came back after all.
+            state.left_behind = state.left_behind.saturating_sub(1);
             return;
         }
         state.drawing = None;
