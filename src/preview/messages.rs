@@ -143,6 +143,13 @@ pub enum Answer {
     },
     /// One kind of shadow is measured.
     Point(Point),
+    /// A figure is written, or why not.
+    Figure {
+        /// Its file.
+        path: PathBuf,
+        /// What went wrong.
+        failure: Option<String>,
+    },
     /// Nothing more is measured: all kinds are, or it was called off.
     Measured,
     /// A picture or measurement could not be made.
