@@ -198,3 +198,69 @@ fn rasterized(svg: &str) -> Result<Vec<u8>, Failure> {
         .map_err(|e| cannot(&e))?;
     Ok(file)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::node::Catalog;
+    use crate::studio::weave::Known;
+    use crate::studio::{Collected, Loader};
+
+    /// The drawing of example graphs, without a picture.
+    fn drawing(files: &[&str]) -> String {
+        let request = Request {
+            files: files.iter().map(|f| PathBuf::from(format!("{}/graphs/{f}", env!("CARGO_MANIFEST_DIR")))).collect(),
+            scene: None,
+            shape: Shown::Sphere,
+            camera: None,
+            size: (8, 8),
+            form: Form::Svg,
+        };
+        let (listener, loader, catalog, known) =
+            (Collected::default(), Loader::default(), Catalog::embedded(), Known::default());
+        let weaver = Weaver { wiring: true, ..Weaver::new(&listener, &loader, &catalog, &known) };
+        let parts = parts(&request, &weaver).expect("read");
+        let subject = Subject { files: &request.files, scene: None, shape: &request.shape };
+        let shot = Shot::new(&subject, &weaver).expect("woven");
+        let across = across(&shot.shaders[0].wiring, &request.files);
+        assert_eq!(across.is_empty(), files.len() < 2, "{across:?}");
+        let compiled = &shot.shaders[0].compiled;
+        Figure { title: "<&>", parts: &parts, across: &across, compiled, picture: None, caption: "" }.svg()
+    }
+
+    #[test]
+    fn drawings_are_well_formed_and_come_out_the_same() {
+        let sets: [&[&str]; 4] = [
+            &["surfaces/bumpy_glass.ron"],
+            &["surfaces/rust.ron"],
+            &["surfaces/marble.ron"],
+            &["lights/spot_vsm.ron", "surfaces/bumpy_glass.ron"],
+        ];
+        for files in sets {
+            let svg = drawing(files);
+            let tree = usvg::Tree::from_str(&svg, &fonts()).unwrap_or_else(|e| panic!("{files:?}: {e}"));
+            // Nothing lies outside.
+            let (size, all) = (tree.size(), tree.root().abs_stroke_bounding_box());
+            assert!(all.left() >= -1.0 && all.top() >= -1.0, "{files:?}: {all:?}");
+            assert!(all.right() <= size.width() + 1.0 && all.bottom() <= size.height() + 1.0, "{files:?}: {all:?}");
+            assert_eq!(svg, drawing(files), "{files:?}");
+        }
+    }
+
+    #[test]
+    fn every_node_is_drawn_and_has_lines_of_its_colour() {
+        let svg = drawing(&["lights/spot_vsm.ron", "surfaces/bumpy_glass.ron"]);
+        for node in ["spot", "shadow", "noise", "bump", "glass"] {
+            // Once on its card and at least once beside its lines.
+            assert!(svg.matches(&format!(">{node}</text>")).count() >= 2, "{node}");
+        }
+        assert!(svg.contains(">irradiance</text>") && svg.contains("Spot light, variance shadow</text>"));
+        assert!(drawing(&["surfaces/rust.ron"]).matches(">mask</text>").count() >= 2, "a subgraph");
+    }
+
+    #[test]
+    fn the_form_is_told_by_the_name() {
+        let of = |name: &str| Form::of(Path::new(name));
+        assert_eq!((of("a.svg"), of("b.PNG"), of("c.exr"), of("d")), (Some(Form::Svg), Some(Form::Png), None, None));
+    }
+}

@@ -107,7 +107,11 @@ impl Figure<'_> {
         );
         let _ = writeln!(out, r##"<rect width="100%" height="100%" fill="#ffffff"/>"##);
         let title = escaped(&cut(self.title, 80));
-        let _ = writeln!(out, r##"<text x="{MARGIN}" y="37" font-size="23" fill="#1d2026" {}>{title}</text>"##, bold("#1d2026"));
+        let _ = writeln!(
+            out,
+            r##"<text x="{MARGIN}" y="37" font-size="23" fill="#1d2026" {}>{title}</text>"##,
+            bold("#1d2026")
+        );
         let tree_at = if across { (width - tree_size[0]) / 2.0 } else { left + (COLUMN - tree_size[0]) / 2.0 };
         let _ = writeln!(out, "<g transform=\"translate({tree_at:.1} {HEAD:.1})\">\n{tree_text}</g>");
         if let Some((png, _)) = picture {
@@ -118,7 +122,8 @@ impl Figure<'_> {
             );
             let y = picture_at + picture_height + 17.0;
             let caption = escaped(&cut(self.caption, 92));
-            let _ = writeln!(out, r##"<text x="{right:.1}" y="{y:.1}" font-size="12" fill="#454c57">{caption}</text>"##);
+            let _ =
+                writeln!(out, r##"<text x="{right:.1}" y="{y:.1}" font-size="12" fill="#454c57">{caption}</text>"##);
         }
         out.push_str(&columns);
         out.push_str("</svg>\n");
@@ -203,7 +208,11 @@ fn escaped(text: &str) -> String {
 
 /// A text of at most so many letters.
 fn cut(text: &str, most: usize) -> String {
-    if text.chars().count() <= most { text.to_owned() } else { text.chars().take(most.saturating_sub(1)).chain(['…']).collect() }
+    if text.chars().count() <= most {
+        text.to_owned()
+    } else {
+        text.chars().take(most.saturating_sub(1)).chain(['…']).collect()
+    }
 }
 
 #[cfg(test)]
@@ -228,7 +237,8 @@ mod tests {
     fn lines_of_a_subgraph_are_those_of_its_node() {
         let mut graph = Graph::default();
         graph.nodes.insert("mask".into(), Default::default());
-        let part = |name: &str| Part { name: name.into(), title: String::new(), graph: graph.clone(), cards: BTreeMap::new() };
+        let part =
+            |name: &str| Part { name: name.into(), title: String::new(), graph: graph.clone(), cards: BTreeMap::new() };
         let one = Colors::new(&[part("rust")]);
         for id in ["mask", "mask/noise", "rust/mask", "rust/mask/a/b"] {
             assert_eq!(one.of_text(id), Some((0, "mask")), "{id}");

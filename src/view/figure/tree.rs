@@ -98,7 +98,8 @@ pub(super) struct Tree<'a> {
 
 impl<'a> Tree<'a> {
     pub(super) fn new(parts: &'a [Part], across: &'a [Across]) -> Self {
-        let mut tree = Self { parts, across, cards: Vec::new(), places: Vec::new(), frames: Vec::new(), size: [0.0; 2] };
+        let mut tree =
+            Self { parts, across, cards: Vec::new(), places: Vec::new(), frames: Vec::new(), size: [0.0; 2] };
         let mut sizes = Vec::new();
         let framed = parts.len() > 1;
         for part in parts {
@@ -141,10 +142,13 @@ impl<'a> Tree<'a> {
                 columns[wire.to.0] = columns[wire.to.0].max((columns[wire.from.0] + 1).min(sizes.len() - 1));
             }
         }
-        let heights: BTreeMap<usize, f64> = columns.iter().map(|c| {
-            let own = || sizes.iter().zip(&columns).filter(|(_, column)| *column == c).map(|(s, _)| s[1]);
-            (*c, own().sum::<f64>() + own().skip(1).map(|_| FRAME).sum::<f64>())
-        }).collect();
+        let heights: BTreeMap<usize, f64> = columns
+            .iter()
+            .map(|c| {
+                let own = || sizes.iter().zip(&columns).filter(|(_, column)| *column == c).map(|(s, _)| s[1]);
+                (*c, own().sum::<f64>() + own().skip(1).map(|_| FRAME).sum::<f64>())
+            })
+            .collect();
         let tallest = heights.values().copied().fold(0.0, f64::max);
         let mut x = EDGE;
         self.frames = vec![[0.0; 4]; sizes.len()];
@@ -166,7 +170,11 @@ impl<'a> Tree<'a> {
             x = far + APART;
         }
         let lanes = if self.across.is_empty() { 0.0 } else { (self.across.len() as f64 + 0.5) * LANE };
-        self.size = if self.places.iter().all(BTreeMap::is_empty) { [0.0; 2] } else { [far + EDGE, tallest + lanes + 2.0 * EDGE] };
+        self.size = if self.places.iter().all(BTreeMap::is_empty) {
+            [0.0; 2]
+        } else {
+            [far + EDGE, tallest + lanes + 2.0 * EDGE]
+        };
     }
 
     /// Draws the tree no wider than `most`. Answers its text and its size.
@@ -180,12 +188,23 @@ impl<'a> Tree<'a> {
                 r##"<rect x="{x:.1}" y="{y:.1}" width="{width:.1}" height="{height:.1}" rx="7" fill="#f1f3f6" stroke="#cdd2da" stroke-dasharray="5 3"/>"##
             );
             let name = escaped(&fitted(&part.title, 13.0, width - 2.0 * FRAME));
-            let _ = writeln!(out, r##"<text x="{:.1}" y="{:.1}" font-size="13" fill="#454c57">{name}</text>"##, x + FRAME, y + 17.0);
+            let _ = writeln!(
+                out,
+                r##"<text x="{:.1}" y="{:.1}" font-size="13" fill="#454c57">{name}</text>"##,
+                x + FRAME,
+                y + 17.0
+            );
         }
         for (index, part) in self.parts.iter().enumerate() {
             for link in &part.graph.links {
                 let thick = if link.from.port.is_none() && link.to.port.is_none() { 3.0 } else { 1.8 };
-                self.wire(&mut out, colors, (index, &link.from), (index, &link.to), &format!(r#"stroke-width="{thick}""#));
+                self.wire(
+                    &mut out,
+                    colors,
+                    (index, &link.from),
+                    (index, &link.to),
+                    &format!(r#"stroke-width="{thick}""#),
+                );
             }
         }
         for (index, wire) in self.across.iter().enumerate() {
@@ -208,7 +227,8 @@ impl<'a> Tree<'a> {
             let (place, card) = (self.places.get(*part)?.get(node)?, self.cards[*part].get(node)?);
             // Several wires of a card lie side by side.
             let same = |w: &&Across| if leaves { w.from == wire.from } else { w.to == wire.to };
-            let (all, own) = (self.across.iter().filter(same).count(), self.across[..index].iter().filter(same).count());
+            let (all, own) =
+                (self.across.iter().filter(same).count(), self.across[..index].iter().filter(same).count());
             let share = (own + 1) as f64 / (all + 1) as f64;
             Some([place[0] + card.size[0] * share, place[1] + card.size[1]])
         };
@@ -219,10 +239,14 @@ impl<'a> Tree<'a> {
         let _ = writeln!(
             out,
             r#"<path d="M{:.1} {:.1} V{:.1} q0 8 {turn} 8 H{:.1} q{turn} 0 {turn} -8 V{:.1}" fill="none" stroke="{color}" stroke-width="2.2" stroke-dasharray="7 4"/>"#,
-            a[0], a[1], lane - 8.0, b[0] - turn, b[1]
+            a[0],
+            a[1],
+            lane - 8.0,
+            b[0] - turn,
+            b[1]
         );
         let words = wire.ports.iter().map(|p| p.replace('_', " ")).collect::<Vec<_>>().join(", ");
-        let (x, y) = (a[0].max(b[0]) - 16.0, lane + 3.5);
+        let (x, y) = (a[0].min(b[0]) + 16.0, lane + 3.5);
         label(out, [x, y], &fitted(&words, 10.5, ((a[0] - b[0]).abs() - 40.0).max(30.0)));
     }
 
@@ -244,11 +268,14 @@ impl<'a> Tree<'a> {
     }
 }
 
-/// A text on a white ground, ending at a place.
+/// A text on a white ground.
 fn label(out: &mut String, [x, y]: [f64; 2], text: &str) {
-    let attributes = r#"font-size="10.5" text-anchor="end""#;
+    let attributes = r#"font-size="10.5""#;
     let text = escaped(text);
-    let _ = writeln!(out, r##"<text x="{x:.1}" y="{y:.1}" {attributes} stroke="#ffffff" stroke-width="4" stroke-linejoin="round">{text}</text>"##);
+    let _ = writeln!(
+        out,
+        r##"<text x="{x:.1}" y="{y:.1}" {attributes} stroke="#ffffff" stroke-width="4" stroke-linejoin="round">{text}</text>"##
+    );
     let _ = writeln!(out, r##"<text x="{x:.1}" y="{y:.1}" {attributes} fill="#454c57">{text}</text>"##);
 }
 
@@ -286,7 +313,10 @@ impl Card {
         let ports = self.outputs.iter().map(|p| (true, p)).chain(self.inputs.iter().map(|p| (false, p)));
         for (leaves, port) in ports {
             let (edge, anchor, inset) = if leaves { (x + width, "end", -9.0) } else { (x, "start", 9.0) };
-            let _ = writeln!(out, r##"<circle cx="{edge:.1}" cy="{row:.1}" r="3.4" fill="{color}" stroke="#ffffff" stroke-width="0.8"/>"##);
+            let _ = writeln!(
+                out,
+                r##"<circle cx="{edge:.1}" cy="{row:.1}" r="3.4" fill="{color}" stroke="#ffffff" stroke-width="0.8"/>"##
+            );
             let _ = writeln!(
                 out,
                 r##"<text x="{:.1}" y="{:.1}" font-size="11" fill="#22262e" text-anchor="{anchor}">{}</text>"##,
@@ -300,7 +330,11 @@ impl Card {
             let value = fitted(value, 10.5, (inner - room(name, 10.5) - 6.0).max(inner * 0.5));
             let name = fitted(name, 10.5, inner - room(&value, 10.5) - 6.0);
             let (left, right, base) = (x + 9.0, x + width - 9.0, row + 4.0);
-            let _ = writeln!(out, r##"<text x="{left:.1}" y="{base:.1}" font-size="10.5" fill="#5e6672">{}</text>"##, escaped(&name));
+            let _ = writeln!(
+                out,
+                r##"<text x="{left:.1}" y="{base:.1}" font-size="10.5" fill="#5e6672">{}</text>"##,
+                escaped(&name)
+            );
             let _ = writeln!(
                 out,
                 r##"<text x="{right:.1}" y="{base:.1}" font-size="10.5" fill="#22262e" text-anchor="end">{}</text>"##,
