@@ -10,12 +10,14 @@ use eframe::egui;
 use super::preview::Preview;
 use super::tab::Tab;
 use crate::diagnostic::Diagnostic;
-use crate::preview::{Answer, Engine, Look, Point, Request, Resolved, ShaderText, Show};
+use crate::preview::{Answer, Cost, Engine, Look, Point, Request, Resolved, ShaderText, Show};
 
 /// What the engine said last.
 pub(super) struct Feed {
     pub(super) engine: Engine,
     asked: Option<String>,
+    /// What the graph that is shown goes by in source maps.
+    stem: String,
     revision: u64,
     pub(super) shaders: Vec<ShaderText>,
     pub(super) found: Vec<Diagnostic>,
@@ -43,6 +45,7 @@ impl Feed {
         Self {
             engine,
             asked: None,
+            stem: String::new(),
             revision: 0,
             shaders: Vec::new(),
             found: Vec::new(),
@@ -71,6 +74,7 @@ impl Feed {
                     if !shaders.shaders.is_empty() {
                         self.shaders = shaders.shaders;
                         self.wiring = shaders.wiring;
+                        self.costs = costs(&shaders.cost, &self.stem);
                     }
                 }
                 Answer::Shaders(_) => {}
@@ -118,6 +122,7 @@ impl Feed {
             return;
         }
         self.asked = Some(key);
+        self.stem = stem(shown.key());
         self.revision += 1;
         self.asked_at = Some(Instant::now());
         self.engine.ask(self.request(tabs, show, preview.look.clone(), preview, nodes));
@@ -174,7 +179,7 @@ impl Feed {
 
     /// What links of a graph came to.
     pub(super) fn wiring_of(&self, key: &Path) -> BTreeMap<(String, String), Vec<Resolved>> {
-        let stem = key.file_stem().map_or_else(String::new, |s| s.to_string_lossy().into_owned());
+        let stem = stem(key);
         let mut all: BTreeMap<(String, String), Vec<Resolved>> = BTreeMap::new();
         for wire in self.wiring.iter().filter(|w| w.graph.is_empty() || w.graph == stem) {
             all.entry((wire.from.0.clone(), wire.to.0.clone())).or_default().push(wire.clone());
@@ -195,4 +200,30 @@ impl Feed {
         }
         all
     }
+}
+
+fn stem(key: &Path) -> String {
+    key.file_stem().map_or_else(String::new, |s| s.to_string_lossy().into_owned())
+}
+
+/// What the nodes of a graph cost: a share of the dearest, and in words. What lies in a subgraph counts for its node.
+fn costs(all: &BTreeMap<String, Cost>, stem: &str) -> BTreeMap<String, (f32, String)> {
+    let named = format!("{stem}/");
+    // A graph that is woven alone has no name in source maps.
+    let alone = !all.keys().any(|id| id.starts_with(&named));
+    let mut nodes: BTreeMap<&str, (u32, u32)> = BTreeMap::new();
+    for (id, cost) in all {
+        let Some(own) = (if alone { Some(id.as_str()) } else { id.strip_prefix(&named) }) else { continue };
+        let (operations, reads) = nodes.entry(own.split('/').next().unwrap_or(own)).or_default();
+        *operations = operations.saturating_add(cost.operations);
+        *reads = reads.saturating_add(cost.texture_reads);
+    }
+    let weight = |(operations, reads): (u32, u32)| operations as f32 + 16.0 * reads as f32;
+    let most = nodes.values().map(|c| weight(*c)).fold(1.0, f32::max);
+    let count = |n: u32, one: &str| if n == 1 { format!("1 {one}") } else { format!("{n} {one}s") };
+    let words = |(operations, reads): (u32, u32)| match reads {
+        0 => count(operations, "op"),
+        _ => format!("{}, {}", count(operations, "op"), count(reads, "read")),
+    };
+    nodes.into_iter().map(|(node, cost)| (node.to_owned(), (weight(cost) / most, words(cost)))).collect()
 }

@@ -1,8 +1,8 @@
 //! The threads: one compiles, one renders, one measures while there is something to measure.
 
 use std::collections::{BTreeMap, VecDeque};
-use std::path::PathBuf;
 use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::path::PathBuf;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
 use std::thread;
