@@ -13,6 +13,7 @@ pub mod module;
 pub mod emit;
 pub mod compile;
 pub mod verify;
+pub mod cost;
 pub mod export;
 pub mod reflect;
 pub mod scene;

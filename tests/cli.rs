@@ -3,6 +3,8 @@
 mod commands;
 #[cfg(feature = "render")]
 mod compare;
+#[cfg(feature = "render")]
+mod figure;
 pub(crate) mod generate;
 mod json;
 #[cfg(feature = "render")]

@@ -18,6 +18,7 @@ const ALLOWED: &[(&str, &[&str])] = &[
     ("emit", &["hash", "diagnostic", "semantic", "node", "weave", "program", "plan", "module"]),
     ("compile", &["diagnostic", "semantic", "graph", "node", "weave", "program", "plan", "emit", "module"]),
     ("verify", &["diagnostic", "module"]),
+    ("cost", &["verify", "module"]),
     ("export", &["diagnostic", "verify", "module"]),
     ("reflect", &["semantic", "module", "plan", "compile", "export", "verify"]),
     ("report", &["diagnostic"]),
@@ -44,10 +45,11 @@ const ALLOWED: &[(&str, &[&str])] = &[
             "view",
         ],
     ),
-    ("preview", &["diagnostic", "node", "compile", "scene", "reference", "render", "studio"]),
+    ("preview", &["cost", "diagnostic", "node", "compile", "scene", "reference", "render", "studio"]),
     (
         "gui",
         &[
+            "cost",
             "diagnostic",
             "semantic",
             "graph",

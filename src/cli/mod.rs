@@ -12,6 +12,7 @@ mod doctor;
 mod edit;
 mod exit;
 mod explain;
+mod figure;
 mod fmt;
 mod generate;
 mod new;
@@ -76,6 +77,7 @@ enum Command {
     Check(check::Check),
     Render(render::Render),
     Compare(compare::Compare),
+    Figure(figure::DrawFigure),
     Nodes(nodes::Nodes),
     Fmt(fmt::Fmt),
     New(new::New),
@@ -93,6 +95,7 @@ impl Command {
             Self::Check(c) => c.run(context),
             Self::Render(c) => c.run(context),
             Self::Compare(c) => c.run(context),
+            Self::Figure(c) => c.run(context),
             Self::Nodes(c) => c.run(context),
             Self::Fmt(c) => c.run(context),
             Self::New(c) => c.run(context),

@@ -10,7 +10,7 @@ use eframe::egui;
 use super::preview::Preview;
 use super::tab::Tab;
 use crate::diagnostic::Diagnostic;
-use crate::preview::{Answer, Engine, Look, Point, Request, Resolved, ShaderText, Show};
+use crate::preview::{Answer, Cost, Engine, Look, Point, Request, Resolved, ShaderText, Show};
 
 /// What links came to, by the nodes at their ends.
 pub(super) type Wiring = BTreeMap<(String, String), Vec<Resolved>>;
@@ -19,6 +19,8 @@ pub(super) type Wiring = BTreeMap<(String, String), Vec<Resolved>>;
 pub(super) struct Feed {
     pub(super) engine: Engine,
     asked: Option<String>,
+    /// What the graph that is shown goes by in source maps.
+    stem: String,
     revision: u64,
     pub(super) shaders: Vec<ShaderText>,
     pub(super) found: Vec<Diagnostic>,
@@ -46,6 +48,7 @@ impl Feed {
         Self {
             engine,
             asked: None,
+            stem: String::new(),
             revision: 0,
             shaders: Vec::new(),
             found: Vec::new(),
@@ -74,6 +77,7 @@ impl Feed {
                     if !shaders.shaders.is_empty() {
                         self.shaders = shaders.shaders;
                         self.wiring = by_graph(shaders.wiring);
+                        self.costs = costs(&shaders.cost, &self.stem);
                     }
                 }
                 Answer::Shaders(_) => {}
@@ -98,6 +102,8 @@ impl Feed {
                     }
                 }
                 Answer::Point(point) => self.points.push(point),
+                Answer::Figure { path, failure: None } => said.push(format!("wrote {}", path.display())),
+                Answer::Figure { path, failure: Some(why) } => said.push(format!("{} not written: {why}", path.display())),
                 Answer::Measured => self.measuring = false,
             }
         }
@@ -122,6 +128,7 @@ impl Feed {
             return;
         }
         self.asked = Some(key);
+        self.stem = stem(shown.key());
         self.revision += 1;
         self.asked_at = Some(Instant::now());
         self.engine.ask(self.request(tabs, show, preview.look.clone(), preview, nodes));
@@ -222,4 +229,30 @@ fn by_graph(wires: Vec<Resolved>) -> BTreeMap<String, Wiring> {
         all.entry(wire.graph.clone()).or_default().entry(ends).or_default().push(wire);
     }
     all
+}
+
+fn stem(key: &Path) -> String {
+    key.file_stem().map_or_else(String::new, |s| s.to_string_lossy().into_owned())
+}
+
+/// What the nodes of a graph cost: a share of the dearest, and in words. What lies in a subgraph counts for its node.
+fn costs(all: &BTreeMap<String, Cost>, stem: &str) -> BTreeMap<String, (f32, String)> {
+    let named = format!("{stem}/");
+    // A graph that is woven alone has no name in source maps.
+    let alone = !all.keys().any(|id| id.starts_with(&named));
+    let mut nodes: BTreeMap<&str, (u32, u32)> = BTreeMap::new();
+    for (id, cost) in all {
+        let Some(own) = (if alone { Some(id.as_str()) } else { id.strip_prefix(&named) }) else { continue };
+        let (operations, reads) = nodes.entry(own.split('/').next().unwrap_or(own)).or_default();
+        *operations = operations.saturating_add(cost.operations);
+        *reads = reads.saturating_add(cost.texture_reads);
+    }
+    let weight = |(operations, reads): (u32, u32)| operations as f32 + 16.0 * reads as f32;
+    let most = nodes.values().map(|c| weight(*c)).fold(1.0, f32::max);
+    let count = |n: u32, one: &str| if n == 1 { format!("1 {one}") } else { format!("{n} {one}s") };
+    let words = |(operations, reads): (u32, u32)| match reads {
+        0 => count(operations, "op"),
+        _ => format!("{}, {}", count(operations, "op"), count(reads, "read")),
+    };
+    nodes.into_iter().map(|(node, cost)| (node.to_owned(), (weight(cost) / most, words(cost)))).collect()
 }

@@ -10,8 +10,12 @@ use super::tab::Tab;
 use crate::diagnostic::{Diagnostic, SourceText, has_errors};
 use crate::graph::{self, Edit, Graph};
 use crate::semantic::Value;
+use crate::studio::figure::{self, Form};
 use crate::studio::{Shown, write};
 use crate::view::{self, Document};
+
+/// Columns and rows of the picture in a figure.
+const FIGURE: (u32, u32) = (960, 640);
 
 impl Editor {
     pub(super) fn add_tab(&mut self, graph: Graph, path: Option<PathBuf>) {
@@ -351,7 +355,22 @@ impl Editor {
         discard(lost);
     }
 
-    fn figure(&mut self, _path: &Path) {}
+    /// Draws tree, code and picture of the graph in the background.
+    fn figure(&mut self, path: &Path) {
+        let Some(tab) = self.tab() else { return };
+        let Some(form) = Form::of(path) else { return self.say("name the figure .svg or .png") };
+        let wanted = figure::Request {
+            files: vec![tab.key().to_path_buf()],
+            scene: self.preview.scene.clone(),
+            shape: self.preview.shape.clone(),
+            camera: self.preview.camera,
+            size: FIGURE,
+            form,
+        };
+        let overlay = self.tabs.iter().map(|t| (t.key().to_path_buf(), t.document.text().into())).collect();
+        self.feed.engine.figure(wanted, overlay, self.node_folders.clone(), path.to_path_buf());
+        self.say(format!("drawing {}", path.display()));
+    }
 
     fn path_chosen(&mut self, purpose: Purpose, path: &Path) {
         match purpose {

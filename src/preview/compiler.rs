@@ -7,6 +7,7 @@ use std::time::Instant;
 
 use super::messages::{Look, Request, ShaderText, Shaders, Show};
 use crate::compile::{Options, Output};
+use crate::cost::{Cost, cost};
 use crate::diagnostic::Diagnostic;
 use crate::node::Catalog;
 use crate::studio::load::{Loader, Stamp};
@@ -33,6 +34,8 @@ pub(super) struct Outcome {
     pub(super) diagnostics: Vec<Diagnostic>,
     /// The nodes that it was woven with.
     pub(super) catalog: Arc<Catalog>,
+    /// What each node costs; not told of single nodes.
+    cost: BTreeMap<String, Cost>,
     /// How long it took; 0 if it was kept.
     pub(super) milliseconds: f64,
 }
@@ -84,8 +87,10 @@ impl Compiler {
                 None
             }
         };
+        let counted = shot.iter().filter(|_| !matches!(request.look, Look::Node { .. }));
+        let cost = counted.fold(BTreeMap::new(), |all, shot| costs(shot, all));
         let milliseconds = begun.elapsed().as_secs_f64() * 1e3;
-        let outcome = Outcome { shot, diagnostics, catalog, milliseconds };
+        let outcome = Outcome { shot, diagnostics, catalog, cost, milliseconds };
         // The newest of its sort takes the place of the one before, and the oldest goes when there is no more room.
         self.kept.retain(|k| (&k.request.show, &k.request.look) != (&request.show, &request.look));
         if self.kept.len() >= MOST {
@@ -141,9 +146,23 @@ impl Outcome {
             diagnostics: self.diagnostics.clone(),
             shaders: all.map(text).collect(),
             wiring,
+            cost: self.cost.clone(),
             milliseconds: self.milliseconds,
         }
     }
+}
+
+/// Adds what each node costs in the shaders of a shot.
+fn costs(shot: &Shot, mut all: BTreeMap<String, Cost>) -> BTreeMap<String, Cost> {
+    for shader in &shot.shaders {
+        for (node, own) in cost(&shader.compiled.module, &shader.verified) {
+            let known = all.entry(node).or_default();
+            if (own.operations, own.texture_reads) > (known.operations, known.texture_reads) {
+                *known = own;
+            }
+        }
+    }
+    all
 }
 
 /// Whether two requests have the same shaders, files aside.

@@ -1,7 +1,8 @@
 //! The threads: one compiles, one renders, one measures while there is something to measure.
 
-use std::collections::VecDeque;
+use std::collections::{BTreeMap, VecDeque};
 use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::path::PathBuf;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
 use std::thread;
@@ -11,7 +12,7 @@ use super::compiler::Compiler;
 use super::messages::{Answer, Look, Request};
 use super::renderer::{Renderer, Work, points};
 use crate::render::AdapterOptions;
-use crate::studio::{Failure, FailureKind};
+use crate::studio::{Failure, FailureKind, figure};
 
 /// Called when an answer is ready, from any thread.
 type Wake = Arc<dyn Fn() + Send + Sync>;
@@ -187,6 +188,24 @@ impl Engine {
         if let Some(cancel) = &self.shared.state().measuring {
             cancel.store(true, Ordering::Relaxed);
         }
+    }
+
+    /// Draws a figure and writes it. Texts stand in place of files, and folders hold further nodes, as in a request.
+    pub fn figure(
+        &self,
+        wanted: figure::Request,
+        overlay: BTreeMap<PathBuf, Arc<str>>,
+        nodes: Vec<PathBuf>,
+        path: PathBuf,
+    ) {
+        self.spawn("figure", move |shared| {
+            let work = || super::renderer::figure(&shared.options, &wanted, overlay, &nodes, &path);
+            let failure = guarded(work).err().map(|failure| {
+                let first = failure.diagnostics.into_iter().next();
+                first.map_or_else(|| "its graphs are broken".to_owned(), |d| d.message)
+            });
+            shared.answer(Answer::Figure { path, failure });
+        });
     }
 
     /// Loses the device before the next picture.

@@ -6,6 +6,7 @@ use std::sync::Arc;
 
 use super::{PassTiming, Point, Resolved, Shown};
 use crate::compile::{Compiled, Output};
+use crate::cost::Cost;
 use crate::diagnostic::Diagnostic;
 use crate::scene::Camera;
 
@@ -85,6 +86,8 @@ pub struct Shaders {
     pub shaders: Vec<ShaderText>,
     /// How ports are fed; none where there is an error.
     pub wiring: Vec<Resolved>,
+    /// What each node costs, by its name in source maps; where several shaders have it, the most.
+    pub cost: BTreeMap<String, Cost>,
     /// How long it took; 0 where nothing had changed.
     pub milliseconds: f64,
 }
@@ -143,6 +146,13 @@ pub enum Answer {
     },
     /// One kind of shadow is measured.
     Point(Point),
+    /// A figure is written, or why not.
+    Figure {
+        /// Its file.
+        path: PathBuf,
+        /// What went wrong.
+        failure: Option<String>,
+    },
     /// Nothing more is measured: all kinds are, or it was called off.
     Measured,
     /// A picture or measurement could not be made.

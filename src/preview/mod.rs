@@ -11,6 +11,7 @@ mod renderer;
 #[cfg(test)]
 mod tests;
 
+pub use crate::cost::Cost;
 pub use crate::render::PassTiming;
 pub use crate::studio::measure::Point;
 pub use crate::studio::{Resolved, Shown};

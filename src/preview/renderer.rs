@@ -1,5 +1,7 @@
 //! From a shot to a picture, on a device that is opened again when it is lost.
 
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 use std::time::Instant;
@@ -8,6 +10,7 @@ use super::compiler::{loader, with_subject};
 use super::messages::{Image, Look, Request};
 use super::{PassTiming, Point};
 use crate::compile::{Options, Output};
+use crate::diagnostic::{Diagnostic, Place};
 use crate::node::Catalog;
 use crate::reference::picture::Watch;
 use crate::render::image_file::{Display, ToneCurve};
@@ -18,7 +21,7 @@ use crate::studio::picture::{Aov, Exposure, draw};
 use crate::studio::stock::{Assets, Stock};
 use crate::studio::truth::{Reference, Wanted, find};
 use crate::studio::weave::{Known, Weaver};
-use crate::studio::{Collected, Failure, Shot};
+use crate::studio::{Collected, Failure, FailureKind, Shot, figure, write};
 
 /// Rays a pixel for the error of a light as it is edited: their standard error is below what can be seen.
 const RAYS: u32 = 64;
@@ -192,6 +195,25 @@ pub(super) fn points(
         measure(subject, &comparison, &weaver, &mut gpu, cancel, |m| each(m.point))
     });
     measured.map_err(|failure| with(failure, &listener))
+}
+
+/// Makes a figure, with texts in place of files, and writes it. A device of its own is opened for it.
+pub(super) fn figure(
+    options: &AdapterOptions,
+    wanted: &figure::Request,
+    overlay: BTreeMap<PathBuf, Arc<str>>,
+    nodes: &[PathBuf],
+    path: &Path,
+) -> Result<(), Failure> {
+    let (listener, known) = (Collected::default(), Known::default());
+    let loader = Loader::with_overlay(overlay);
+    let (catalog, _) = loader.catalog(nodes)?;
+    let weaver = Weaver::new(&listener, &loader, &catalog, &known);
+    let made = figure::make(wanted, &weaver, || Gpu::new(options)).map_err(|failure| with(failure, &listener))?;
+    write(path, &made).map_err(|error| {
+        let place = Place::file(path.display().to_string());
+        Failure::new(FailureKind::Unreadable, Diagnostic::error("ST0505", error.to_string(), place))
+    })
 }
 
 /// A failure with what was told before it: here nobody listened.

@@ -6,6 +6,8 @@
 
 pub mod assets;
 pub mod failure;
+#[cfg(feature = "render")]
+pub mod figure;
 pub mod focus;
 pub mod load;
 #[cfg(feature = "render")]
