@@ -92,10 +92,7 @@ pub(super) fn split(rows: &[Row], left: f64, right: f64) -> usize {
         let column = |top: f64, n: usize| if n == 0 { top } else { top + height(n) };
         (column(left, count) - column(right, rows.len() - count)).abs()
     };
-    let begins = |count: usize| match (rows.get(count), count.checked_sub(1).and_then(|i| rows.get(i))) {
-        (None | Some(Row::Space), _) | (_, None) => true,
-        _ => false,
-    };
+    let begins = |count: usize| count == 0 || matches!(rows.get(count), None | Some(Row::Space));
     let tear = |count: usize| if begins(count) { 0.0 } else { 20.0 * LINE };
     let cost = |count: &usize| end(*count) + tear(*count);
     (0..=rows.len()).min_by(|a, b| cost(a).total_cmp(&cost(b))).unwrap_or(0)

@@ -161,7 +161,7 @@ impl Colors {
     /// Number and name of the node that a name of the text stands for: itself, or the subgraph that it is in.
     fn of_text(&self, id: &str) -> Option<(usize, &str)> {
         let ends = id.match_indices('/').map(|(at, _)| at).chain([id.len()]);
-        let found = ends.filter_map(|end| self.by_id.get(&id[..end])).last();
+        let found = ends.rev().find_map(|end| self.by_id.get(&id[..end]));
         found.map(|(i, name)| (*i, name.as_str()))
     }
 }
