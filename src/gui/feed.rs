@@ -103,7 +103,9 @@ impl Feed {
                 }
                 Answer::Point(point) => self.points.push(point),
                 Answer::Figure { path, failure: None } => said.push(format!("wrote {}", path.display())),
-                Answer::Figure { path, failure: Some(why) } => said.push(format!("{} not written: {why}", path.display())),
+                Answer::Figure { path, failure: Some(why) } => {
+                    said.push(format!("{} not written: {why}", path.display()))
+                }
                 Answer::Measured => self.measuring = false,
             }
         }

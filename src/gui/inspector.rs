@@ -388,7 +388,7 @@ fn frame_edit(ui: &mut Ui, tab: &Tab, name: &str, edits: &mut Vec<Done>) {
     );
     ui.horizontal(|ui| {
         ui.label("Colour");
-        let mut rgb = frame.color.unwrap_or([0.3; 3]).map(|c| super::preview::narrow(c));
+        let mut rgb = frame.color.unwrap_or([0.3; 3]).map(super::preview::narrow);
         if ui.color_edit_button_rgb(&mut rgb).changed() {
             let color = Some(rgb.map(|c| (f64::from(c) * 1e3).round() / 1e3));
             edits.push(Done::part(

@@ -36,12 +36,15 @@ pub(super) struct Work {
     pub(super) cancel: Arc<AtomicBool>,
 }
 
+/// A truth that was computed: of what, as it was wanted, and its picture.
+type Truth = (Arc<Shot>, Wanted, Arc<Vec<[f32; 4]>>);
+
 /// Makes pictures.
 pub(super) struct Renderer {
     options: AdapterOptions,
     gpu: Option<Gpu>,
     stock: Stock,
-    truth: Option<(Arc<Shot>, Wanted, Arc<Vec<[f32; 4]>>)>,
+    truth: Option<Truth>,
 }
 
 impl Renderer {

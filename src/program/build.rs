@@ -55,7 +55,7 @@ fn evaluate(program: &mut Program, woven: &Woven, worth: &[Worth], index: usize)
     let on_lights = shadow && !node.lights.is_empty();
     let fed = Fed::of(woven, worth, index);
     // Whether it has another value under each light, and not only because what it combines has.
-    let depends = lit || on_lights || (!fed.values.is_empty() && !(surface && takes_surfaces(definition)));
+    let depends = lit || on_lights || !(fed.values.is_empty() || surface && takes_surfaces(definition));
     let mut lights = fed.surfaces;
     if depends {
         lights.extend(node.lights.keys());

@@ -39,11 +39,11 @@ pub(super) struct View {
 }
 
 impl View {
-    pub(super) fn to_screen(&self, p: Pos2) -> Pos2 {
+    pub(super) fn to_screen(self, p: Pos2) -> Pos2 {
         self.screen.center() + (p - self.camera.center) * self.camera.zoom
     }
 
-    pub(super) fn to_plane(&self, p: Pos2) -> Pos2 {
+    pub(super) fn to_plane(self, p: Pos2) -> Pos2 {
         self.camera.center + (p - self.screen.center()) / self.camera.zoom
     }
 
