@@ -224,8 +224,8 @@ fn details(
     let name = format!("Link {} -> {}", wire.from, wire.to);
     response.widget_info(|| egui::WidgetInfo::selected(egui::WidgetType::Other, true, lively, &name));
     let converted: u32 = found.iter().map(|r| r.cost).sum();
-    if found.iter().any(|r| !r.conversions.is_empty()) && zoom > 0.6 {
-        let text = format!("⇄ {converted}");
+    if converted > 0 && zoom > 0.6 {
+        let text = format!("↔ {converted}");
         let galley = painter.layout_no_wrap(text, egui::FontId::proportional((10.0 * zoom).round()), look.text);
         let rect = Rect::from_center_size(middle, galley.size() + vec2(8.0, 3.0));
         painter.rect(rect, 6.0, look.card, Stroke::new(1.0, color), egui::StrokeKind::Inside);
