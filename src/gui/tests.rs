@@ -4,8 +4,8 @@ use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
 use eframe::egui::{Event, Key, Modifiers, PointerButton, Pos2, Vec2, vec2};
+use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable;
-use egui_kittest::{Harness, Node};
 
 use super::{Editor, Options, Places};
 use crate::node::Catalog;
@@ -23,6 +23,10 @@ impl Bench {
     }
 
     fn within(folder: tempfile::TempDir, files: &[&str]) -> Self {
+        Self::started(folder, files, false)
+    }
+
+    fn started(folder: tempfile::TempDir, files: &[&str], paused: bool) -> Self {
         let places = Places::within(folder.path());
         let files: Vec<PathBuf> = files
             .iter()
@@ -41,7 +45,7 @@ impl Bench {
             catalog: Catalog::embedded(),
             adapter,
             places: Some(places),
-            paused: false,
+            paused,
         };
         let harness = Harness::builder().with_size(vec2(1280.0, 800.0)).with_max_steps(30).build_eframe(move |cc| {
             let mut editor = Editor::new(&cc.egui_ctx, options);
@@ -73,6 +77,10 @@ impl Bench {
     fn key(&mut self, modifiers: Modifiers, key: Key) {
         self.harness.key_press_modifiers(modifiers, key);
         self.steps(3);
+    }
+
+    fn key_sequence(&mut self, keys: &[(Modifiers, Key)]) {
+        keys.iter().for_each(|(modifiers, key)| self.key(*modifiers, *key));
     }
 
     fn text(&mut self, text: &str) {
@@ -401,31 +409,65 @@ fn looking_changes_nothing() {
     }
 }
 
-/// Every command that needs no more than a selection, by its key.
-#[test]
-fn no_key_breaks_anything() {
-    use super::command::Command;
-    for command in Command::ALL {
-        if matches!(command, Command::Quit) {
-            continue;
-        }
-        let Some(key) = command.keys().first() else { continue };
-        let mut bench = Bench::new(&["lights/spot_vsm.ron"]);
-        bench.key(CTRL, Key::A);
-        bench.key(key.modifiers, key.logical_key);
-        bench.steps(2);
-        bench.key(Modifiers::NONE, Key::Escape);
-        bench.key(CTRL, Key::Z);
-        bench.steps(1);
-    }
+/// What a command can change, in words.
+fn state(bench: &Bench) -> Vec<String> {
+    let editor = bench.harness.state();
+    let tab = editor.tab().expect("a tab");
+    vec![
+        tab.document.text(),
+        format!("{:?} {:?} {:?} {:?}", tab.selection, tab.link, tab.frame, tab.camera),
+        format!("{:?} {}", editor.tabs.iter().map(|t| t.key().to_path_buf()).collect::<Vec<_>>(), editor.active),
+        format!("{:?} {} {} {}", editor.settings, editor.thumbnails, editor.costs, editor.quits),
+        format!("{:?} {}", editor.preview.look, editor.preview.paused),
+        format!("{} {}", editor.dialog.is_some(), editor.finder.is_some()),
+        format!("{:?}", editor.toasts.iter().map(|(text, _)| text).collect::<Vec<_>>()),
+        format!("{:?}", bench.harness.ctx.memory(eframe::egui::Memory::focused)),
+    ]
 }
 
-/// Found by name, whatever it is.
-#[allow(dead_code, reason = "for looking at failures")]
-fn all_labels(node: &Node<'_>, out: &mut Vec<String>) {
-    use egui_kittest::kittest::NodeT;
-    out.extend(node.accesskit_node().label());
-    for child in node.children() {
-        all_labels(&child, out);
+/// Every key of every command changes something, and what it does to a document can be taken back.
+#[test]
+fn every_key_does_something_that_can_be_taken_back() {
+    use super::command::Command as C;
+    for command in C::ALL {
+        for key in command.keys() {
+            // Over the canvas alone; elsewhere it walks through the widgets.
+            if key.logical_key == Key::Tab && key.modifiers.is_none() {
+                continue;
+            }
+            let mut bench = Bench::started(tempfile::tempdir().expect("a folder"), &["lights/spot_vsm.ron"], true);
+            match command {
+                C::SelectAll | C::New => {}
+                C::Undo => bench.key_sequence(&[(CTRL, Key::A), (CTRL, Key::D)]),
+                C::Redo => bench.key_sequence(&[(CTRL, Key::A), (CTRL, Key::D), (CTRL, Key::Z)]),
+                C::NextTab => bench.key(CTRL, Key::N),
+                C::Pin | C::Bend => {
+                    let tab = bench.harness.state_mut().tab_mut().expect("a tab");
+                    tab.link = tab.graph().links.first().map(|l| (l.from.clone(), l.to.clone()));
+                }
+                C::Leave => {
+                    let tab = bench.harness.state_mut().tab_mut().expect("a tab");
+                    tab.outer = Some((tab.key().to_path_buf(), "spot".into()));
+                }
+                C::AlignLeft | C::AlignTop | C::AlignCenterX | C::AlignCenterY | C::DistributeX | C::DistributeY => {
+                    bench.key(CTRL, Key::A);
+                }
+                _ => bench.harness.state_mut().go_to("shadow"),
+            }
+            bench.harness.state_mut().tab_mut().expect("a tab").camera.center += vec2(300.0, 0.0);
+            bench.steps(2);
+            let before = state(&bench);
+            bench.key(key.modifiers, key.logical_key);
+            bench.steps(2);
+            let after = state(&bench);
+            assert!(before != after, "{command:?} by {key:?} does nothing: {after:?}");
+            if matches!(command, C::Redo | C::Undo | C::New | C::NextTab | C::Close) {
+                continue;
+            }
+            if before[0] != after[0] {
+                bench.key(CTRL, Key::Z);
+                assert_eq!(state(&bench)[0], before[0], "{command:?} is taken back");
+            }
+        }
     }
 }
