@@ -141,6 +141,8 @@ fn change(graph: &mut Graph, edit: Edit, linked: &mut bool) -> Result<Edit, Edit
         Edit::SetKind { node, kind, graph: path } => {
             let target = node_mut(graph, &node)?;
             target.spans.kind = None;
+            // A way through a subgraph is no cycle; through the node that takes its place it is.
+            *linked |= target.graph.is_some() && path.is_none();
             let (kind, path) = (replace(&mut target.kind, kind), replace(&mut target.graph, path));
             Edit::SetKind { node, kind, graph: path }
         }

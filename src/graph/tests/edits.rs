@@ -69,6 +69,19 @@ fn links_may_cross_in_a_batch_that_ends_without_a_cycle() {
     assert_eq!(write(&graph), before);
 }
 
+#[test]
+fn a_node_in_the_place_of_a_subgraph_closes_no_cycle() {
+    let text =
+        r#"Graph(version: 1, nodes: {"a": (kind: "k"), "s": (graph: "s.ron")}, links: ["a -> s.i", "s.o -> a"])"#;
+    let (graph, found) = read(&SourceText::new("t.ron", text));
+    assert!(found.is_empty(), "a way through a subgraph may be none: {found:?}");
+    let mut graph = graph.unwrap();
+    let before = write(&graph);
+    let edit = Edit::SetKind { node: "s".into(), kind: "k".into(), graph: None };
+    assert!(matches!(apply(&mut graph, edit), Err(EditError::Cycle(_))));
+    assert_eq!(write(&graph), before);
+}
+
 fn clean_but_for_unknown(text: &str) {
     let (_, found) = read(&SourceText::new("t.ron", text));
     assert!(found.iter().all(|d| d.code == "ST0010"), "{text}\n{found:?}");
