@@ -147,6 +147,9 @@ impl Loader {
             if meta.len() > MAX_BYTES as u64 {
                 return Err(too_large());
             }
+            // Room for all of it at once: growing as it is read would hold a device without end twice at its largest.
+            let length = if meta.is_file() { meta.len() + 1 } else { limit };
+            bytes.reserve_exact(usize::try_from(length.min(limit)).unwrap_or(MAX_BYTES));
             std::fs::File::open(path).and_then(|f| f.take(limit).read_to_end(&mut bytes)).map_err(unreadable)?;
         }
         if bytes.len() > MAX_BYTES { Err(too_large()) } else { Ok(bytes) }

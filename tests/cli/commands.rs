@@ -129,7 +129,7 @@ fn shells_and_man_get_their_pages() {
     run("completions tcsh").exits(2).says("possible values");
     let page = run("man").exits(0);
     assert!(page.text().contains(".TH"), "{}", page.text());
-    for command in ["generate", "check", "render", "nodes", "fmt", "new", "explain", "doctor"] {
+    for command in ["edit", "generate", "check", "render", "nodes", "fmt", "new", "explain", "doctor"] {
         assert!(page.text().contains(command), "{command}");
     }
 }
@@ -146,7 +146,7 @@ fn the_scripts_are_accepted_by_their_shell() {
 
 #[test]
 fn help_has_examples_and_goes_to_stdout() {
-    for command in ["generate", "check", "render", "nodes", "fmt", "new", "explain", "doctor", "completions", "man"] {
+    for command in ["edit", "generate", "check", "render", "nodes", "fmt", "new", "explain", "doctor", "completions", "man"] {
         let help = run(&format!("{command} --help")).exits(0);
         assert!(help.text().contains("Examples:") && help.err.is_empty(), "{command}");
         assert!(help.text().contains(&format!("shadetree {command}")), "{command}");
@@ -154,7 +154,10 @@ fn help_has_examples_and_goes_to_stdout() {
     let help = run("--help").exits(0);
     assert!(help.text().contains("Exit codes: 0 done") && help.text().contains("Examples:"));
     assert!(run("--version").exits(0).text().starts_with("shadetree "));
-    run("").exits(2).no_data().says("Usage");
+    // With the editor, no command means the editor.
+    if cfg!(not(feature = "gui")) {
+        run("").exits(2).no_data().says("Usage");
+    }
     run("paint").exits(2).says("unrecognized subcommand");
 }
 
