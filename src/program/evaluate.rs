@@ -202,8 +202,8 @@ impl Program {
             [one] => one,
             _ => {
                 let slots: Vec<String> = (0..terms.len()).map(|i| format!("${i}")).collect();
-                let sum = slots.join(" + ");
-                let text = if amount { sum } else { format!("({sum}) / {}.0", terms.len()) };
+                let total = slots.join(" + ");
+                let text = if amount { total } else { format!("({total}) / {}.0", terms.len()) };
                 let id = self.template(&text, terms, &name, None);
                 self.shaped(id, shape)
             }

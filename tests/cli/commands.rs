@@ -146,7 +146,9 @@ fn the_scripts_are_accepted_by_their_shell() {
 
 #[test]
 fn help_has_examples_and_goes_to_stdout() {
-    for command in ["edit", "generate", "check", "render", "nodes", "fmt", "new", "explain", "doctor", "completions", "man"] {
+    for command in
+        ["edit", "generate", "check", "render", "nodes", "fmt", "new", "explain", "doctor", "completions", "man"]
+    {
         let help = run(&format!("{command} --help")).exits(0);
         assert!(help.text().contains("Examples:") && help.err.is_empty(), "{command}");
         assert!(help.text().contains(&format!("shadetree {command}")), "{command}");
