@@ -265,10 +265,8 @@ impl Editor {
     }
 
     fn add_in_middle(&mut self) {
-        let pointer = self.canvas_has_pointer;
         let Some(tab) = self.tab() else { return };
         let at = position(tab.camera.center);
-        let _ = pointer;
         self.finder = Some((
             Wanted::Add { at, wire: None },
             Finder::new("Add node", Some(self.canvas.center() - vec2(190.0, 210.0))),
@@ -307,19 +305,10 @@ impl Editor {
         let Some(tab) = self.tab() else { return };
         let Some((from, to)) = tab.link.clone() else { return };
         if command == Command::Pin {
-            let wiring = self.feed.wiring_of(tab.key());
-            let wire = wiring.get(&(from.node.clone(), to.node.clone())).and_then(|w| w.first());
-            match wire.filter(|_| from.port.is_none() || to.port.is_none()) {
-                Some(wire) => {
-                    let edit = view::pin(tab.graph(), &from, &to, &wire.from.1, &wire.to.1);
-                    let pinned = (End::port(&from.node, &wire.from.1), End::port(&to.node, &wire.to.1));
-                    if self.change("Pin link", edit)
-                        && let Some(tab) = self.tab_mut()
-                    {
-                        tab.link = Some(pinned);
-                    }
-                }
-                None => self.say("the ports of this link are not known yet, or it has them already"),
+            let Self { tabs, active, feed, .. } = self;
+            let Some(tab) = tabs.get_mut(*active) else { return };
+            if let Err(why) = tab.pin(feed.wiring_of(tab.key()), &from, &to) {
+                self.say(why);
             }
             return;
         }

@@ -11,6 +11,7 @@ use crate::diagnostic::{Diagnostic, SourceText, has_errors};
 use crate::graph::{self, Edit, Graph};
 use crate::semantic::Value;
 use crate::studio::figure::{self, Form};
+use crate::studio::load::root_name;
 use crate::studio::{Shown, write};
 use crate::view::{self, Document};
 
@@ -34,7 +35,7 @@ impl Editor {
             Ok(text) => text,
             Err(error) => return self.say(format!("cannot read {}: {error}", path.display())),
         };
-        if is_scene(&text) {
+        if root_name(&text) == "Scene" {
             return self.open_scene(path, &text);
         }
         match read(path, &text) {
@@ -379,7 +380,7 @@ impl Editor {
                 self.save_to(self.active, path);
             }
             Purpose::Scene => match std::fs::read_to_string(path) {
-                Ok(text) if is_scene(&text) => {
+                Ok(text) if root_name(&text) == "Scene" => {
                     self.preview.scene = Some(path.to_path_buf());
                     self.preview.camera = None;
                 }
@@ -408,13 +409,6 @@ fn read(path: &Path, text: &str) -> Result<(Graph, Vec<Diagnostic>), Vec<Diagnos
         Some(graph) if !has_errors(&found) => Ok((graph, found)),
         _ => Err(found),
     }
-}
-
-fn is_scene(text: &str) -> bool {
-    text.lines()
-        .map(str::trim_start)
-        .find(|l| !l.is_empty() && !l.starts_with("//"))
-        .is_some_and(|l| l.starts_with("Scene"))
 }
 
 /// A path as a file in `folder` mentions it: with `/`, and from there where that is short.
@@ -448,10 +442,5 @@ mod tests {
         assert_eq!(relative_to(&root.join("a"), &root.join("a/b/x.ron")), "b/x.ron");
         assert_eq!(relative_to(&root.join("a/b"), &root.join("c/x.png")), "../../c/x.png");
         assert_eq!(relative_to(&root.join("a"), &root.join("a/x.ron")), "x.ron");
-    }
-
-    #[test]
-    fn scenes_are_told_from_graphs() {
-        assert!(is_scene("\n// a\nScene(version: 1)") && !is_scene("Graph(name: \"Scene\")"));
     }
 }

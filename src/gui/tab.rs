@@ -4,8 +4,9 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 
 use super::canvas::{Camera, Cards, Gesture};
+use super::feed::Wiring;
 use crate::graph::{End, Graph};
-use crate::view::Document;
+use crate::view::{Document, pin};
 
 /// An open graph.
 pub(super) struct Tab {
@@ -85,6 +86,18 @@ impl Tab {
         self.selection = BTreeSet::from([node.to_owned()]);
         self.link = None;
         self.frame = None;
+    }
+
+    /// Writes the ports that a link came to into it, and keeps it selected.
+    pub(super) fn pin(&mut self, wiring: &Wiring, from: &End, to: &End) -> Result<(), String> {
+        let found = wiring.get(&(from.node.clone(), to.node.clone())).and_then(|w| w.first());
+        let Some(wire) = found.filter(|_| from.port.is_none() || to.port.is_none()) else {
+            return Err("the ports of this link are not known yet, or it has them already".into());
+        };
+        let edit = pin(self.graph(), from, to, &wire.from.1, &wire.to.1);
+        self.document.change("Pin link", edit).map_err(|e| e.to_string())?;
+        self.link = Some((End::port(&from.node, &wire.from.1), End::port(&to.node, &wire.to.1)));
+        Ok(())
     }
 
     /// The one node that is selected.

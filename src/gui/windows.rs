@@ -7,7 +7,6 @@ use super::canvas::{Target, Wish};
 use super::command::Command;
 use super::finder::{Finder, Outcome, Row};
 use crate::graph::Edit;
-use crate::node::Catalog;
 use crate::view::{self, Hit, Insert};
 
 impl Editor {
@@ -238,12 +237,6 @@ impl Editor {
             None => self.dialog = Some(dialog),
             Some(answer) => self.answer(ctx, dialog, answer),
         }
-    }
-
-    /// The catalogue, for what lists it.
-    #[allow(dead_code, reason = "for tests of lists")]
-    pub(super) fn catalog(&self) -> &Catalog {
-        &self.catalog
     }
 }
 

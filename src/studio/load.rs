@@ -335,7 +335,7 @@ pub fn stems(paths: &[PathBuf]) -> Vec<String> {
 }
 
 /// The name before the first bracket: what kind of file a text is. Empty if there is none.
-fn root_name(text: &str) -> &str {
+pub fn root_name(text: &str) -> &str {
     let mut rest = text.trim_start_matches('\u{feff}').trim_start();
     loop {
         if let Some(after) = rest.strip_prefix("//").or_else(|| rest.strip_prefix("#!")) {

@@ -11,7 +11,7 @@ use crate::graph::{Edit, End, apply};
 use crate::gui::tab::Tab;
 use crate::gui::theme::{Look, badge};
 use crate::semantic::{Conversions, Type};
-use crate::view::{Insert, Pending, connect, insert_on_link, move_frame, pin, place_missing};
+use crate::view::{Insert, Pending, connect, insert_on_link, move_frame, place_missing};
 
 /// What a drag does.
 #[derive(Clone, Debug, Default)]
@@ -163,7 +163,7 @@ fn click(tab: &mut Tab, around: &Surroundings<'_>, under: Option<&Under>, comman
         }
         Some(Under::Wire { from, to }) => {
             if command {
-                pin_link(tab, around, from, to);
+                let _ = tab.pin(around.wiring, from, to);
             }
             tab.selection.clear();
             tab.frame = None;
@@ -193,16 +193,6 @@ fn click(tab: &mut Tab, around: &Surroundings<'_>, under: Option<&Under>, comman
         }
         _ => {}
     }
-}
-
-/// Writes the ports that a link came to into it. False where they are not known, or it has them.
-pub(in crate::gui) fn pin_link(tab: &mut Tab, around: &Surroundings<'_>, from: &End, to: &End) -> bool {
-    let found = around.wiring.get(&(from.node.clone(), to.node.clone()));
-    let Some(wire) = found.and_then(|w| w.first()).filter(|_| from.port.is_none() || to.port.is_none()) else {
-        return false;
-    };
-    let edit = pin(tab.graph(), from, to, &wire.from.1, &wire.to.1);
-    tab.document.change("Pin link", edit).is_ok()
 }
 
 /// Adds a bend to a link where it was clicked.
@@ -425,15 +415,7 @@ fn release(
 }
 
 /// Draws what a gesture shows on the way.
-pub(super) fn draw(
-    ui: &Ui,
-    painter: &egui::Painter,
-    tab: &Tab,
-    around: &Surroundings<'_>,
-    view: &View,
-    seen: &Seen,
-    look: &Look,
-) {
+pub(super) fn draw(ui: &Ui, painter: &egui::Painter, tab: &Tab, view: &View, seen: &Seen, look: &Look) {
     let pointer = ui.input(|i| i.pointer.latest_pos());
     match (&tab.gesture, pointer) {
         (Gesture::Wire { end, output, ty, .. }, Some(p)) => {
@@ -454,5 +436,4 @@ pub(super) fn draw(
         }
         _ => {}
     }
-    let _ = around;
 }

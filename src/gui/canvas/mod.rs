@@ -105,7 +105,7 @@ pub(super) fn show(ui: &mut Ui, tab: &mut Tab, around: &Surroundings<'_>) -> (eg
     frames::draw(ui, &painter, tab, &view, &look);
     wires::draw(ui, &painter, tab, around, &view, &seen, under.as_ref(), &look);
     draw::nodes(ui, &painter, tab, around, &view, &seen, under.as_ref(), &look);
-    input::draw(ui, &painter, tab, around, &view, &seen, &look);
+    input::draw(ui, &painter, tab, &view, &seen, &look);
     if around.minimap && !tab.graph().nodes.is_empty() {
         minimap::show(ui, tab, &view, &look);
     }
