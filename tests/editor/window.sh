@@ -8,9 +8,10 @@
 set -euo pipefail
 
 binary="$(realpath "$1")"
-pictures="${2:-$(mktemp -d)}"
 size="${SIZE:-1280x800}"
-mkdir -p "$pictures"
+mkdir -p "${2:-.}"
+# Whole, as this goes to another folder below.
+pictures="$(realpath "${2:-$(mktemp -d)}")"
 here="$(cd "$(dirname "$0")/../.." && pwd)"
 work="$(mktemp -d)"
 pids=()
