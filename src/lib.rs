@@ -22,6 +22,7 @@ pub mod view;
 #[cfg(feature = "render")]
 pub mod render;
 pub mod studio;
+pub mod study;
 #[cfg(feature = "render")]
 pub mod preview;
 #[cfg(feature = "gui")]

@@ -45,6 +45,7 @@ const ALLOWED: &[(&str, &[&str])] = &[
             "view",
         ],
     ),
+    ("study", &["diagnostic", "semantic", "ron", "node", "compile", "scene", "reference", "render", "studio"]),
     ("preview", &["cost", "diagnostic", "node", "compile", "scene", "reference", "render", "studio"]),
     (
         "gui",

@@ -1,7 +1,7 @@
 //! How far a picture of visibility is from the truth.
 
 /// Errors over pixels, on linear visibility. Positive differences are light where there is none.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Metrics {
     /// Pixels that were compared.
     pub pixels: usize,

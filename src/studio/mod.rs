@@ -19,6 +19,8 @@ pub mod shot;
 pub mod stage;
 #[cfg(feature = "render")]
 pub mod stock;
+#[cfg(feature = "render")]
+pub mod trial;
 pub mod truth;
 mod truth_light;
 pub mod weave;

@@ -1,0 +1,11 @@
+//! Speed against accuracy: what is measured of every cell of a study, and what follows from it.
+//!
+//! A [`Record`] is one cell: a shadow with its settings on one light of one scene at one frame size, with the times of
+//! its passes, round by round, and its errors against the truth. Everything else (medians, ratios, fronts, claims) is
+//! computed from records, and no record holds a conclusion.
+
+pub mod record;
+pub mod statistics;
+
+pub use record::{Errors, Machine, Record, Role, Series};
+pub use statistics::Spread;
