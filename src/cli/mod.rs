@@ -11,16 +11,21 @@ mod context;
 mod doctor;
 mod edit;
 mod exit;
+#[cfg(feature = "render")]
+mod experiment;
 mod explain;
 mod figure;
 mod fmt;
 mod generate;
+mod merge;
 mod new;
 mod nodes;
 mod output;
 #[cfg(feature = "render")]
 mod picture;
 mod render;
+mod results;
+mod study;
 #[cfg(feature = "render")]
 mod truth;
 mod watch;
@@ -78,6 +83,7 @@ enum Command {
     Render(render::Render),
     Compare(compare::Compare),
     Figure(figure::DrawFigure),
+    Study(study::RunStudy),
     Nodes(nodes::Nodes),
     Fmt(fmt::Fmt),
     New(new::New),
@@ -96,6 +102,7 @@ impl Command {
             Self::Render(c) => c.run(context),
             Self::Compare(c) => c.run(context),
             Self::Figure(c) => c.run(context),
+            Self::Study(c) => c.run(context),
             Self::Nodes(c) => c.run(context),
             Self::Fmt(c) => c.run(context),
             Self::New(c) => c.run(context),

@@ -6,7 +6,7 @@ use super::adapter::{AdapterOptions, AdapterSummary};
 use super::blocks::{check_camera, object_block};
 use super::device::{Device, check};
 use super::format::{self, Abilities, channels, name_of, texel_bytes};
-use super::job::{ColorFormat, Frame, Job, MapPicture};
+use super::job::{ColorFormat, Frame, Job, MapPicture, MapSummary};
 use super::main_pass::{Main, Target, background_spec, main_spec};
 use super::map_passes::Work;
 use super::map_store::{MapStore, casters};
@@ -139,6 +139,19 @@ impl Gpu {
             kept.clear();
         }
         frame
+    }
+
+    /// The distinct maps that a job needs, as this adapter makes them.
+    pub fn maps_of(&self, job: &Job<'_>) -> Result<Vec<MapSummary>, RenderError> {
+        let lights = LightPlans::gather(&self.device, job)?;
+        let summary = |map: &MapPlan<'_>| MapSummary {
+            light: map.light.to_owned(),
+            side: map.side(),
+            layers: map.views.len(),
+            format: name_of(map.format()),
+            bits: 8 * texel_bytes(map.format()),
+        };
+        Ok(lights.maps.iter().map(summary).collect())
     }
 
     /// Renders a map of a light and reads it back: the one at `index` among the distinct maps of that light.

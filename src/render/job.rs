@@ -150,6 +150,21 @@ pub struct PassTiming {
     pub milliseconds: Option<f64>,
 }
 
+/// A light's map, as an adapter makes it.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct MapSummary {
+    /// The light.
+    pub light: String,
+    /// Texels on a side of the finished map.
+    pub side: u32,
+    /// Views of the light, each with a layer.
+    pub layers: usize,
+    /// Name of the format of the finished map.
+    pub format: &'static str,
+    /// Bits of a texel of it.
+    pub bits: u32,
+}
+
 /// A light's map, read back.
 #[derive(Clone, Debug, PartialEq)]
 pub struct MapPicture {

@@ -4,8 +4,19 @@
 //! its passes, round by round, and its errors against the truth. Everything else (medians, ratios, fronts, claims) is
 //! computed from records, and no record holds a conclusion.
 
+pub mod cells;
+mod codes;
+pub mod document;
+pub mod read;
 pub mod record;
+#[cfg(feature = "render")]
+pub mod run;
+#[cfg(feature = "render")]
+mod silhouette;
 pub mod statistics;
+pub mod table;
 
+pub use codes::CODES;
+pub use document::Study;
 pub use record::{Errors, Machine, Record, Role, Series};
 pub use statistics::Spread;
