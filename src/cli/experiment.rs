@@ -16,8 +16,9 @@ use crate::render::Gpu;
 use crate::studio::weave::{Known, Weaver};
 use crate::studio::{self, FailureKind, Loader};
 use crate::study::cells::{Batch, batches};
+use crate::study::check::has_setting;
 use crate::study::read::read;
-use crate::study::run::{Runner, has_setting};
+use crate::study::run::Runner;
 
 /// Rounds of the quick form of a study, counted and before.
 const QUICK: (usize, usize) = (8, 2);

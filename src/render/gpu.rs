@@ -79,6 +79,15 @@ impl Gpu {
 
     /// Renders a picture.
     pub fn render(&mut self, job: &Job<'_>) -> Result<Frame, RenderError> {
+        self.draw(job, true)
+    }
+
+    /// Renders a picture, waits until it is finished and leaves it on the device: what is of interest is how long it took.
+    pub fn time(&mut self, job: &Job<'_>) -> Result<Frame, RenderError> {
+        self.draw(job, false)
+    }
+
+    fn draw(&mut self, job: &Job<'_>, wanted: bool) -> Result<Frame, RenderError> {
         check_camera(&job.camera)?;
         let Self { device, pipelines, maps: store, uploads: kept } = self;
         let device = &*device;
@@ -128,7 +137,8 @@ impl Gpu {
             let prepared = Main { job, target, lights: &lights, maps: &maps, objects: &objects };
             let picture = prepared.render(device, &mut encoder, &timer, &main, background.as_deref(), &mut uploads)?;
             device.queue.submit([encoder.finish()]);
-            let pixels = read_back::texture(device, &picture)?;
+            let pixels = if wanted { read_back::texture(device, &picture)? } else { Vec::new() };
+            device.wait()?;
             let timings = timer.finish(device)?;
             add_new(&mut messages, uploads.messages);
             Ok(Frame { size: job.size, pixels, timings, adapter: device.summary.clone(), messages })

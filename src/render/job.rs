@@ -107,7 +107,8 @@ pub struct Job<'a> {
 pub struct Frame {
     /// Columns and rows.
     pub size: (u32, u32),
-    /// Linear colour, multiplied by coverage, and coverage; rows from the top, each from the left.
+    /// Linear colour, multiplied by coverage, and coverage; rows from the top, each from the left. None where only times
+    /// were asked for.
     pub pixels: Vec<[f32; 4]>,
     /// What each pass took, in the order that they ran.
     pub timings: Vec<PassTiming>,

@@ -76,7 +76,8 @@ pub fn batches(study: &Study, quick: bool, has: &dyn Fn(&str, &str) -> bool) -> 
     cells.sort_by_key(|c| (c.case, c.method));
     let Some(plain) = study.methods.iter().position(|m| m.name == study.plain) else { return Ok(Vec::new()) };
     let mut all: Vec<Batch> = Vec::new();
-    for group in cells.chunk_by(|a, b| (a.case, a.method) == (b.case, b.method)) {
+    let methods = cells.chunk_by(|a, b| (a.case, a.method) == (b.case, b.method));
+    for group in methods.flat_map(|method| method.chunks(BATCH)) {
         let fits = |b: &&mut Batch| b.cells[0].case == group[0].case && b.cells.len() + group.len() <= BATCH;
         match all.last_mut().filter(fits) {
             Some(batch) => batch.cells.extend_from_slice(group),
@@ -149,4 +150,82 @@ pub fn slug(text: &str) -> String {
         slug.push_str(&format!("~{changed:x}"));
     }
     slug
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::diagnostic::SourceText;
+    use crate::study::read::read;
+
+    fn study(grids: &str) -> Study {
+        let text = format!(
+            "Study(version: 1, plain: \"hard\", cases: {{\"a\": (scene: \"a\", light: \"l\"), \"b\": (scene: \"b\", light: \"l\")}}, \
+             methods: {{\"hard\": (shadow: \"h\", set: {{\"metric\": \"zw\"}}), \"soft\": (shadow: \"s\", vary: {{\"width\": [3, 5]}})}}, \
+             grids: [{grids}])"
+        );
+        let (study, found) = read(&SourceText::new("s.ron", text));
+        study.unwrap_or_else(|| panic!("{found:?}"))
+    }
+
+    /// The soft shadow alone has a width.
+    fn has(kind: &str, name: &str) -> bool {
+        name == "size" || (kind == "s" && name == "width")
+    }
+
+    fn names(grids: &str, quick: bool) -> Vec<String> {
+        let batches = batches(&study(grids), quick, &has).expect("cells");
+        batches.iter().flat_map(|b| &b.cells).map(|c| c.name.clone()).collect()
+    }
+
+    #[test]
+    fn cells_are_all_combinations_each_once() {
+        let one = "(cases: [\"a\"], frames: [(4, 3)], vary: {\"size\": [64, 128]})";
+        let expected = [
+            "a--hard--metric=zw,size=64--4x3",
+            "a--hard--metric=zw,size=128--4x3",
+            "a--soft--size=64,width=3--4x3",
+            "a--soft--size=128,width=3--4x3",
+            "a--soft--size=64,width=5--4x3",
+            "a--soft--size=128,width=5--4x3",
+        ];
+        assert_eq!(names(one, false), expected);
+        assert_eq!(names(&format!("{one}, {one}"), false), expected);
+        assert_eq!(names(one, true), Vec::<String>::new());
+        assert_eq!(names("(frames: [(4, 3)], quick: true)", true).len(), 6);
+    }
+
+    #[test]
+    fn every_cell_has_the_plain_map_of_its_size_and_frame_in_its_batch() {
+        let grid = "(methods: [\"soft\"], frames: [(4, 3), (8, 6)], vary: {\"size\": [64, 128]})";
+        for batch in batches(&study(grid), false, &has).expect("cells") {
+            assert_eq!(batch.cells.len(), batch.plain.len());
+            for (cell, plain) in batch.cells.iter().zip(&batch.plain) {
+                let plain = &batch.cells[*plain];
+                assert_eq!((plain.case, plain.method, plain.frame), (cell.case, 0, cell.frame));
+                assert_eq!(plain.settings.get("size"), cell.settings.get("size"));
+                assert!(plain.baseline && plain.plain_has_no_width());
+            }
+        }
+    }
+
+    impl Cell {
+        fn plain_has_no_width(&self) -> bool {
+            !self.settings.contains_key("width")
+        }
+    }
+
+    #[test]
+    fn batches_are_bounded_and_names_told_apart() {
+        let sizes: Vec<String> = (0..30).map(|i| i.to_string()).collect();
+        let grid = format!("(frames: [(4, 3)], vary: {{\"size\": [{}]}})", sizes.join(", "));
+        let all = batches(&study(&grid), false, &has).expect("cells");
+        assert!(all.iter().all(|b| b.cells.iter().all(|c| c.case == b.cells[0].case)));
+        assert_ne!(slug("a/b"), slug("a:b"));
+        assert_ne!(slug("a b"), slug("a_b"));
+        let many: Vec<String> = (0..400).map(|i| i.to_string()).collect();
+        let axis = many.join(", ");
+        let vary = format!("\"size\": [{axis}], \"light.x\": [{axis}]");
+        assert!(batches(&study(&format!("(frames: [(4, 3)], vary: {{{vary}}})")), false, &has).is_err());
+    }
 }

@@ -5,6 +5,8 @@
 //! computed from records, and no record holds a conclusion.
 
 pub mod cells;
+#[cfg(feature = "render")]
+pub mod check;
 mod codes;
 pub mod document;
 pub mod read;
@@ -15,6 +17,7 @@ pub mod run;
 mod silhouette;
 pub mod statistics;
 pub mod table;
+pub mod write;
 
 pub use codes::CODES;
 pub use document::Study;

@@ -1,11 +1,12 @@
 //! Measures batches of cells: errors against the truth, then times, all cells of a batch in turn.
 
 use std::collections::BTreeMap;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::sync::atomic::AtomicBool;
 
 use super::cells::{Batch, Cell, slug};
-use super::document::{Case, Method, Study, Timed};
+use super::check::{Stand, check, choices};
+use super::document::{Case, Study, Timed};
 use super::record::{Errors, Machine, Record, Role, Series, VERSION};
 use super::silhouette::regions;
 use crate::compile::{Options, Output};
@@ -13,36 +14,28 @@ use crate::diagnostic::{Diagnostic, Place};
 use crate::node::Catalog;
 use crate::reference::picture::Watch;
 use crate::render::image_file::{Display, ToneCurve, encode_png};
-use crate::render::{AdapterSummary, ColorFormat, Gpu};
-use crate::scene::Scene;
-use crate::studio::load::relative;
-use crate::studio::measure::{error_map, graph_of, shadow_of};
+use crate::render::{AdapterSummary, ColorFormat, Gpu, MapSummary};
+use crate::studio::measure::error_map;
 use crate::studio::picture::{Aov, Exposure, draw, with_job};
 use crate::studio::settings::{Assignment, Target};
 use crate::studio::stock::Stock;
-use crate::studio::trial::{Entrant, Laps, Part, Rounds, race};
+use crate::studio::trial::{Entrant, Lap, Laps, Part, Rounds, race};
 use crate::studio::truth::{self, Reference, Wanted};
 use crate::studio::weave::Weaver;
-use crate::studio::{Collected, Failure, Loader, Shot, Shown, Subject};
-use crate::weave::is_light;
+use crate::studio::{Collected, Failure, FailureKind, Loader, Shot, Shown, Subject};
 
-/// What was measured of one cell, and its pictures as PNG by their path below the folder of results.
+/// What was measured of one cell.
 pub struct Measured {
     /// The figures.
     pub record: Record,
-    /// Pictures.
+    /// Pictures as PNG by their path below the folder of results.
     pub pictures: Vec<(String, Vec<u8>)>,
 }
 
-/// A case with what is found out once.
-struct Stand {
-    files: Vec<PathBuf>,
-    shadow: String,
-    light: String,
-    light_kind: String,
-    triangles: usize,
-}
-
+/// Pictures as PNG by their path below the folder of results.
+type Pictures = Vec<(String, Vec<u8>)>;
+/// Errors by reference, with pictures of them.
+type Judged = (BTreeMap<String, Errors>, Pictures);
 /// Pixels of a picture and a note on them.
 type Pictured = (Vec<[f32; 4]>, String);
 
@@ -65,20 +58,7 @@ impl<'a> Runner<'a> {
     /// Checks that all that the study names is there. `file` is the study's, from which paths of scenes count. Everything
     /// that is wrong is told together.
     pub fn new(study: &'a Study, file: &Path, weaver: Weaver<'a>) -> Result<Self, Failure> {
-        let mut found = Vec::new();
-        for method in &study.methods {
-            check_method(method, study, weaver.catalog, &mut found);
-        }
-        let mut cases = Vec::new();
-        for case in &study.cases {
-            match find_case(case, file, &weaver) {
-                Ok(case) => cases.push(case),
-                Err(failure) => found.extend(failure.diagnostics.into_iter().map(|d| of_case(d, case))),
-            }
-        }
-        if !found.is_empty() {
-            return Err(found.into());
-        }
+        let cases = check(study, file, &weaver)?;
         let rounds = Rounds { warm_up: study.warm_up, counted: study.rounds };
         let (catalog, loader) = (weaver.catalog, weaver.loader);
         let (truths, depths, stock) = (BTreeMap::new(), BTreeMap::new(), Stock::default());
@@ -104,7 +84,7 @@ impl<'a> Runner<'a> {
         let mut entrants = Vec::new();
         // Where each entrant belongs.
         let mut places = Vec::new();
-        let mut by_errors: BTreeMap<String, (BTreeMap<String, Errors>, Vec<(String, Vec<u8>)>)> = BTreeMap::new();
+        let mut by_errors: BTreeMap<String, Judged> = BTreeMap::new();
         for (index, cell) in batch.cells.iter().enumerate() {
             let mut record = self.blank(cell, &machine);
             let mut pictures = Vec::new();
@@ -126,7 +106,7 @@ impl<'a> Runner<'a> {
                     entrants.push(entrant);
                     places.push(index);
                 }
-                Err(failure) if failure.kind == crate::studio::FailureKind::NoAdapter => return Err(failure),
+                Err(failure) if failure.kind == FailureKind::NoAdapter => return Err(failure),
                 Err(failure) => record.failure = Some(in_words(&failure)),
             }
             all.push(Measured { record, pictures });
@@ -225,8 +205,7 @@ impl<'a> Runner<'a> {
             format: ColorFormat::Half,
         };
         let maps = with_job(&shot, &assets, &self.stock, self.loader, &exposure, |job| gpu.maps_of(job))?;
-        let own =
-            |m: &&crate::render::MapSummary| m.light.split('/').next() == Some(&case.light) || m.light == case.light;
+        let own = |m: &&MapSummary| m.light.split('/').next() == Some(&case.light) || m.light == case.light;
         if let Some(map) = maps.iter().find(own) {
             (record.side, record.bits, record.format) = (Some(map.side), Some(map.bits), Some(map.format.to_owned()));
         }
@@ -234,12 +213,7 @@ impl<'a> Runner<'a> {
     }
 
     /// Errors of a cell against each reference, and its pictures.
-    fn errors(
-        &mut self,
-        cell: &Cell,
-        gpu: &mut Gpu,
-        cancel: &AtomicBool,
-    ) -> Result<(BTreeMap<String, Errors>, Vec<(String, Vec<u8>)>), Failure> {
+    fn errors(&mut self, cell: &Cell, gpu: &mut Gpu, cancel: &AtomicBool) -> Result<Judged, Failure> {
         let (mut all, mut pictures) = (BTreeMap::new(), Vec::new());
         let size = self.study.truth.size;
         let visibility = Output::Visibility(self.study.cases[cell.case].light.clone());
@@ -260,7 +234,7 @@ impl<'a> Runner<'a> {
             };
             if !self.truths.contains_key(&key) {
                 let found = match self.truth(cell, reference, cancel) {
-                    Err(failure) if failure.kind == crate::studio::FailureKind::Cancelled => return Err(failure),
+                    Err(failure) if failure.kind == FailureKind::Cancelled => return Err(failure),
                     // Not every shadow has a filter that could be judged.
                     Err(_) => (Vec::new(), String::new()),
                     Ok(found) => found,
@@ -331,7 +305,7 @@ fn machine(adapter: &AdapterSummary) -> Machine {
 fn fill(record: &mut Record, laps: Laps) {
     record.messages = laps.messages;
     record.wall = laps.wall;
-    let series = |lap: crate::studio::trial::Lap| Series {
+    let series = |lap: Lap| Series {
         role: match lap.part {
             Part::Light => Role::Light,
             Part::Filter => Role::Filter,
@@ -364,99 +338,4 @@ fn colors(size: (u32, u32), pixels: &[[u8; 4]]) -> Result<Vec<u8>, Failure> {
 
 fn unwritable(why: &str) -> Failure {
     vec![Diagnostic::error("ST0514", format!("a picture could not be encoded: {why}"), Place::default())].into()
-}
-
-fn of_case(mut diagnostic: Diagnostic, case: &Case) -> Diagnostic {
-    diagnostic.message = format!("case `{}`: {}", case.name, diagnostic.message);
-    diagnostic
-}
-
-fn find_case(case: &Case, file: &Path, weaver: &Weaver<'_>) -> Result<Stand, Failure> {
-    let place = case.span.clone().map_or_else(Place::default, Place::span);
-    let fail = |message: String, help: &str| {
-        Failure::from(vec![Diagnostic::error("ST0611", message, place.clone()).help(help)])
-    };
-    let files = vec![relative(&case.scene, &file.display().to_string())];
-    let subject = Subject { files: &files, scene: None, shape: &Shown::Sphere };
-    let shadow = shadow_of(&subject, &case.light, weaver)?;
-    let graph = graph_of(&subject, &case.light, weaver)?;
-    let is_one = |node: &crate::graph::Node| {
-        weaver.catalog.get(&node.kind).and_then(|f| f.definition(&node.options).ok()).is_some_and(|d| is_light(&d))
-    };
-    let mut lights = graph.graph.nodes.iter().filter(|(_, node)| is_one(node));
-    let (light, light_kind) = match (lights.next(), lights.next()) {
-        (Some((light, node)), None) => (format!("{}/{light}", graph.name), node.kind.clone()),
-        _ => {
-            return Err(fail(
-                format!("the graph of `{}` has not exactly one light node", case.light),
-                "take another light",
-            ));
-        }
-    };
-    let scene: Scene = crate::studio::shot::scene_of(&files[0], weaver)?;
-    let mut triangles = 0;
-    for object in scene.objects.iter().filter(|o| o.casts) {
-        triangles += crate::studio::assets::mesh_of(&object.shape, &files[0], weaver.loader)?.indices.len() / 3;
-    }
-    if triangles == 0 {
-        let message = format!("nothing casts a shadow in `{}`", case.scene);
-        let diagnostic = Diagnostic::error("ST0612", message, place);
-        return Err(vec![diagnostic.help("let an object cast, or take another scene")].into());
-    }
-    Ok(Stand { files, shadow, light, light_kind, triangles })
-}
-
-/// Whether the shadow of a method exists and has what is set on it.
-fn check_method(method: &Method, study: &Study, catalog: &Catalog, found: &mut Vec<Diagnostic>) {
-    let place = || method.span.clone().map_or_else(Place::default, Place::span);
-    if !crate::studio::measure::is_shadow(catalog, &method.shadow) {
-        let kinds = crate::studio::measure::shadow_kinds(catalog);
-        let message = format!("the method `{}` has the shadow `{}`, which there is not", method.name, method.shadow);
-        let help = match crate::diagnostic::did_you_mean(&method.shadow, kinds.iter().map(String::as_str)) {
-            Some(near) => format!("did you mean `{near}`?"),
-            None => format!("shadows are {}", kinds.join(", ")),
-        };
-        found.push(Diagnostic::error("ST0610", message, place()).help(help));
-        return;
-    }
-    let varied = method.vary.iter().map(|(name, values)| (name, values.iter().collect::<Vec<_>>()));
-    let fixed = method.set.iter().map(|(name, value)| (name, vec![value]));
-    let in_grids = study.grids.iter().filter(|g| g.methods.is_empty() || g.methods.contains(&method.name));
-    let in_grids = in_grids.flat_map(|g| &g.vary).map(|(name, values)| (name, values.iter().collect::<Vec<_>>()));
-    let in_grids = in_grids.filter(|(name, _)| has_setting(catalog, &method.shadow, name));
-    for (name, values) in varied.chain(fixed).chain(in_grids).filter(|(name, _)| !name.starts_with("light.")) {
-        if !has_setting(catalog, &method.shadow, name) {
-            let message =
-                format!("the method `{}` sets `{name}`, which `{}` does not have", method.name, method.shadow);
-            let help = format!("see `shadetree nodes {}`", method.shadow);
-            found.push(Diagnostic::error("ST0610", message, place()).help(help));
-        }
-        let Some(choices) = choices(catalog, &method.shadow, name) else { continue };
-        for value in values.into_iter().filter(|v| !choices.contains(v)) {
-            let message = format!("the method `{}` sets `{name}` to `{value}`", method.name);
-            let help = format!("choices are {}", choices.join(", "));
-            found.push(Diagnostic::error("ST0610", message, place()).help(help));
-        }
-    }
-}
-
-/// What may be chosen for an option of a kind of node; none if it has no such option.
-fn choices(catalog: &Catalog, kind: &str, name: &str) -> Option<Vec<String>> {
-    let header = catalog.get(kind)?.header().ok()?;
-    header.options.iter().find(|o| o.name == name).map(|o| o.choices.clone())
-}
-
-/// Whether nodes of a kind have an option or a port of that name, with whatever options.
-pub fn has_setting(catalog: &Catalog, kind: &str, name: &str) -> bool {
-    let Some(file) = catalog.get(kind) else { return false };
-    let Ok(header) = file.header() else { return false };
-    if header.options.iter().any(|o| o.name == name) {
-        return true;
-    }
-    // A port may be there with some choice of one option only.
-    let choices =
-        header.options.iter().flat_map(|o| o.choices.iter().map(|c| BTreeMap::from([(o.name.clone(), c.clone())])));
-    std::iter::once(BTreeMap::new())
-        .chain(choices)
-        .any(|choices| file.definition(&choices).is_ok_and(|d| d.input(name).is_some_and(|p| !p.hidden)))
 }

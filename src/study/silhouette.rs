@@ -12,29 +12,38 @@ const BEND: f32 = 0.02;
 /// Pixels on either side of an outline that belong to it.
 const BORDER: usize = 2;
 
+/// Visibility, as it ought to be, and whether an outline is near.
+type Pixel = (f32, f32, bool);
+/// Whether a pixel belongs to a part.
+type Part = fn(&Pixel) -> bool;
+
 /// Metrics over all pixels that both pictures show, and over the parts that the truth divides them into: `lit`, `umbra`,
 /// `penumbra`, and `silhouette`, which are the pixels next to an outline of a body, whatever else they are. `depth` is the
 /// distance from the eye, rows from the top, with coverage in the fourth number.
-pub(super) fn regions(seen: &[[f32; 4]], truth: &[[f32; 4]], depth: &[[f32; 4]], columns: usize) -> BTreeMap<String, Metrics> {
+pub(super) fn regions(
+    seen: &[[f32; 4]],
+    truth: &[[f32; 4]],
+    depth: &[[f32; 4]],
+    columns: usize,
+) -> BTreeMap<String, Metrics> {
     let outlines = outlines(depth, columns);
-    let pixels: Vec<(f32, f32, bool)> = seen
+    let pixels: Vec<Pixel> = seen
         .iter()
         .zip(truth)
         .zip(&outlines)
         .filter(|((a, b), _)| a[3] > 0.0 && b[3] > 0.0)
         .map(|((a, b), outline)| (a[0], b[0], *outline))
         .collect();
-    let parts: [(&str, &dyn Fn(&(f32, f32, bool)) -> bool); 5] = [
-        ("all", &|_| true),
-        ("lit", &|(_, truth, outline)| *truth >= LIT && !outline),
-        ("penumbra", &|(_, truth, outline)| (1.0 - LIT..LIT).contains(truth) && !outline),
-        ("silhouette", &|(_, _, outline)| *outline),
-        ("umbra", &|(_, truth, outline)| *truth < 1.0 - LIT && !outline),
+    let parts: [(&str, Part); 5] = [
+        ("all", |_| true),
+        ("lit", |(_, truth, outline)| *truth >= LIT && !outline),
+        ("penumbra", |(_, truth, outline)| (1.0 - LIT..LIT).contains(truth) && !outline),
+        ("silhouette", |(_, _, outline)| *outline),
+        ("umbra", |(_, truth, outline)| *truth < 1.0 - LIT && !outline),
     ];
-    let of = |part: &dyn Fn(&(f32, f32, bool)) -> bool| {
-        Metrics::new(pixels.iter().filter(|p| part(p)).map(|(a, b, _)| (f64::from(*a), f64::from(*b))))
-    };
-    parts.iter().map(|(name, part)| ((*name).to_owned(), of(part))).collect()
+    let of =
+        |part: Part| Metrics::new(pixels.iter().filter(|p| part(p)).map(|(a, b, _)| (f64::from(*a), f64::from(*b))));
+    parts.iter().map(|(name, part)| ((*name).to_owned(), of(*part))).collect()
 }
 
 /// Pixels within [`BORDER`] of a jump of depth, or of where nothing is seen.
