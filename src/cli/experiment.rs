@@ -72,7 +72,7 @@ pub(super) fn run(command: &RunStudy, context: &Context) -> Outcome {
     if !before.is_empty() {
         context.say(&format!("{} cells are in {} already", cells(&before), path.display()));
     }
-    context.say(&format!("{} cells in {} batches", cells(&left), left.len()));
+    context.say(&format!("{} cells to measure", cells(&left)));
     let work: u64 = left.iter().map(|b| runner.work(b)).sum();
     let bar = late(context, "measuring", Some(work));
     let cancel = AtomicBool::new(false);
