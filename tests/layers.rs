@@ -22,7 +22,7 @@ const ALLOWED: &[(&str, &[&str])] = &[
     ("export", &["diagnostic", "verify", "module"]),
     ("reflect", &["semantic", "module", "plan", "compile", "export", "verify"]),
     ("report", &["diagnostic"]),
-    ("explain", &["ron", "graph", "node", "scene"]),
+    ("explain", &["ron", "graph", "node", "scene", "study"]),
     ("scene", &["diagnostic", "semantic", "ron"]),
     ("reference", &["scene"]),
     ("view", &["hash", "diagnostic", "semantic", "graph", "node", "weave", "compile"]),
@@ -46,6 +46,7 @@ const ALLOWED: &[(&str, &[&str])] = &[
         ],
     ),
     ("study", &["diagnostic", "semantic", "ron", "node", "compile", "scene", "reference", "render", "studio"]),
+    ("chart", &["reference", "study"]),
     ("preview", &["cost", "diagnostic", "node", "compile", "scene", "reference", "render", "studio"]),
     (
         "gui",

@@ -2,6 +2,7 @@
 //!
 //! stdout is data, stderr is messages and progress, `-` is stdin or stdout. Exit codes: see [`Exit`].
 
+mod chart;
 mod check;
 #[cfg(feature = "render")]
 mod comparison;
@@ -21,6 +22,7 @@ mod output;
 #[cfg(feature = "render")]
 mod picture;
 mod render;
+mod results;
 #[cfg(feature = "render")]
 mod truth;
 mod watch;
@@ -77,6 +79,7 @@ enum Command {
     Check(check::Check),
     Render(render::Render),
     Compare(compare::Compare),
+    Chart(chart::DrawChart),
     Figure(figure::DrawFigure),
     Nodes(nodes::Nodes),
     Fmt(fmt::Fmt),
@@ -95,6 +98,7 @@ impl Command {
             Self::Check(c) => c.run(context),
             Self::Render(c) => c.run(context),
             Self::Compare(c) => c.run(context),
+            Self::Chart(c) => c.run(context),
             Self::Figure(c) => c.run(context),
             Self::Nodes(c) => c.run(context),
             Self::Fmt(c) => c.run(context),
