@@ -1,5 +1,6 @@
 //! The program as people and scripts run it: exit codes, what goes to stdout and what to stderr, and files.
 
+mod chart;
 mod commands;
 #[cfg(feature = "render")]
 mod compare;

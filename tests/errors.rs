@@ -164,10 +164,26 @@ fn made() -> Vec<(&'static str, Vec<Diagnostic>)> {
     let sphere = "(shape: Sphere(radius: 1), surface: \"matte.ron\")";
     let camera = "camera: (position: (0, 0, 5), target: (0, 0, 0), fov: 40)";
     let objects = many(20_001, sphere);
+    let study = |text: &str| shadetree::study::sheet::read(&SourceText::new("made.ron", text)).1;
+    let claims = "Study(claims: [\n\
+        (id: \"H1\", kind: \"constnat\", time: \"mian\", over: \"size\"),\n\
+        (kind: \"constant\", time: \"main\", within: -1, methods: [\"PCF\"]),\n\
+        (id: \"H2\", kind: \"constant\", time: \"main\", over: \"size\"),\n\
+        (id: \"H3\", kind: \"crossing\", time: \"main\", over: \"size\", least: 0.5, methods: [\"PCF\"]),\n\
+        (id: \"H3\", kind: \"grows\", time: \"main\", over: \"size\", frame: (0, 480), colour: 1)])\n";
+    let published = "Study(published: [\n\
+        (title: \"T\", unit: \"hz\", plain: \"None\", columns: [\"64\"], rows: {\"PCF\": [1, 2], \"VSM\": [0]}),\n\
+        (title: \"U\", plain: \"PCF\", vary: \"frame\", columns: [\"64\"], rows: {\"PCF\": [1]})])\n";
+    let results = |text: &str| shadetree::study::folder::parse(&SourceText::new("results.jsonl", text)).1;
     vec![
+        ("claims", study(claims)),
         ("cycle", compile(&cycle, catalog(), &Options::default()).1),
+        ("no_study", study("Graph(version: 1)\n")),
         ("nodes", read(&graph(&many(20_001, "(kind: \"value\")")))),
         ("not_a_scene", scene("Stage(version: 1)\n".into())),
+        ("published", study(published)),
+        ("results", results("{\"version\": 1}\nnothing\n{\"version\": 1, \"ce")),
+        ("results_version", results("{\"version\": 7}\n")),
         ("objects", scene(format!("Scene(version: 1, {camera}, objects: {{\n{objects}}})\n"))),
         ("set", compile(&set, catalog(), &Options::default()).1),
         ("parameters", graphs(&[SourceText::new("made.ron", chain)], catalog())),

@@ -46,6 +46,7 @@ const ALLOWED: &[(&str, &[&str])] = &[
         ],
     ),
     ("study", &["diagnostic", "ron", "graph", "node", "weave", "compile", "scene", "reference", "render", "studio"]),
+    ("chart", &["reference", "study"]),
     ("preview", &["cost", "diagnostic", "node", "compile", "scene", "reference", "render", "studio"]),
     (
         "gui",

@@ -2,6 +2,7 @@
 #![allow(unreachable_pub, reason = "modules of one test binary see each other")]
 #![allow(clippy::print_stdout, clippy::print_stderr, reason = "tests say what they skip and how much they did")]
 
+mod chart;
 mod cli;
 mod errors;
 mod graphs;
@@ -11,6 +12,7 @@ mod images;
 #[cfg(feature = "render")]
 mod laws;
 mod layers;
+mod made_study;
 mod matrix;
 #[cfg(feature = "render")]
 mod minimal;

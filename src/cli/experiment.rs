@@ -1,22 +1,25 @@
 //! The run of a study.
 
+use std::collections::BTreeMap;
 use std::sync::atomic::AtomicBool;
 
 use serde_json::json;
 
 use super::context::Context;
 use super::exit::{Exit, Failure, Outcome};
+use super::folder::Folder;
 use super::output;
 use super::picture::late;
 use super::render::adapter_options;
-use super::results::Folder;
 use super::study::RunStudy;
 use crate::diagnostic::{Diagnostic, Place, has_errors};
 use crate::render::Gpu;
 use crate::studio::weave::{Known, Weaver};
 use crate::studio::{self, FailureKind, Loader};
+use crate::study::Record;
 use crate::study::cells::{Batch, batches};
 use crate::study::check::has_setting;
+use crate::study::claims::{Claim, Verdict, judge};
 use crate::study::read::read;
 use crate::study::run::Runner;
 
@@ -61,12 +64,8 @@ pub(super) fn run(command: &RunStudy, context: &Context) -> Outcome {
 
     let (part, parts) = command.shard.unwrap_or((1, 1));
     let own = all.iter().enumerate().filter(|(index, _)| index % parts == part - 1).map(|(_, batch)| batch);
-    let is_done = |batch: &&Batch| {
-        let done = |name: &String| {
-            folder.records.get(name).is_some_and(|r| r.failure.is_some() || r.wall.len() >= runner.rounds.counted)
-        };
-        batch.cells.iter().all(|c| done(&c.name))
-    };
+    let rounds = runner.rounds.counted;
+    let is_done = |batch: &&Batch| batch.cells.iter().all(|c| is_measured(&folder.records, &c.name, rounds));
     let (before, left): (Vec<&Batch>, Vec<&Batch>) = own.partition(is_done);
     let cells = |batches: &[&Batch]| batches.iter().map(|b| b.cells.len()).sum::<usize>();
     if !before.is_empty() {
@@ -102,6 +101,10 @@ pub(super) fn run(command: &RunStudy, context: &Context) -> Outcome {
         let mut pictures = Vec::new();
         let mut records = Vec::new();
         for one in results {
+            // A plain map that several batches are compared with is one cell.
+            if one.record.baseline && is_measured(&folder.records, &one.record.cell, rounds) {
+                continue;
+            }
             pictures.extend(one.pictures);
             records.push(one.record);
         }
@@ -115,12 +118,53 @@ pub(super) fn run(command: &RunStudy, context: &Context) -> Outcome {
         let why = folder.records[cell].failure.clone().unwrap_or_default();
         context.say(&format!("{cell}: {why}"));
     }
+    let verdicts: Vec<Verdict> = if command.quick {
+        let records: Vec<Record> = folder.records.values().cloned().collect();
+        let laws: Vec<Claim> = study.claims.iter().filter(|c| c.law).cloned().collect();
+        judge(&laws, &records).into_iter().filter(|v| !v.parts.is_empty()).collect()
+    } else {
+        Vec::new()
+    };
+    let broken = verdicts.iter().filter(|v| is_broken(v)).count();
     let text = if context.is_json() {
         let folder = path.display().to_string();
-        format!("{}\n", json!({"folder": folder, "measured": measured, "known": cells(&before), "failed": failed}))
+        let told = json!({
+            "folder": folder, "measured": measured, "known": cells(&before), "failed": failed, "laws": verdicts
+        });
+        format!("{told}\n")
     } else {
-        format!("{measured} cells measured, {} of them without figures: {}\n", failed.len(), path.display())
+        let laws: String = verdicts.iter().map(in_words).collect();
+        format!("{measured} cells measured, {} of them without figures: {}\n{laws}", failed.len(), path.display())
     };
     output::print(text.as_bytes())?;
+    if broken > 0 {
+        let message = format!("{broken} of the laws that the study claims do not hold");
+        let diagnostic = Diagnostic::error("ST0613", message, Place::file(name));
+        return Err(vec![diagnostic.help("measure again on a machine that does nothing else, with more rounds")].into());
+    }
     Ok(Exit::Done)
+}
+
+/// Whether a cell was measured in as many rounds, or cannot be.
+fn is_measured(known: &BTreeMap<String, Record>, cell: &str, rounds: usize) -> bool {
+    known.get(cell).is_some_and(|r| r.failure.is_some() || r.wall.len() >= rounds)
+}
+
+/// Whether a claim is refuted: a number is outside of its bounds, and so is the whole of its interval.
+fn is_broken(verdict: &Verdict) -> bool {
+    verdict.parts.iter().any(|p| !p.held && p.sure)
+}
+
+/// A law with the number that decides on it, in a line.
+fn in_words(verdict: &Verdict) -> String {
+    let state = match verdict.parts.iter().all(|p| p.held) {
+        true => "holds",
+        false if is_broken(verdict) => "does not hold",
+        false => "is open",
+    };
+    let number = verdict.decisive().map_or_else(String::new, |p| {
+        let (low, high) = p.interval;
+        format!(" ({}: {} {:.3}, {low:.3} to {high:.3}; allowed {})", p.place, p.what, p.value, p.allowed())
+    });
+    format!("{} {state}: {}{number}\n", verdict.id, verdict.text)
 }

@@ -6,10 +6,12 @@ use serde_json::json;
 
 use super::context::Context;
 use super::exit::{Exit, Failure, Outcome};
+use super::folder::Folder;
 use super::output;
-use super::results::{Folder, read};
+use super::results::read;
 use super::study::Merge;
 use crate::diagnostic::{Diagnostic, Place};
+use crate::studio::Loader;
 use crate::study::{Machine, Record};
 
 pub(super) fn run(command: &Merge, context: &Context) -> Outcome {
@@ -31,9 +33,9 @@ pub(super) fn run(command: &Merge, context: &Context) -> Outcome {
             Some(_) => {}
             None => study = Some((text, folder.display().to_string())),
         }
-        parts.push((folder, read(folder, true)?));
+        parts.push((folder, read(folder, &Loader::default())?.records));
     }
-    let machines: BTreeSet<&Machine> = parts.iter().flat_map(|(_, r)| r.values()).map(|r| &r.machine).collect();
+    let machines: BTreeSet<&Machine> = parts.iter().flat_map(|(_, r)| r).map(|r| &r.machine).collect();
     if machines.len() > 1 && !command.mixed {
         let names: Vec<String> = machines.iter().map(|m| format!("{} ({})", m.adapter, m.driver)).collect();
         let message = format!("the results are of different adapters: {}", names.join("; "));
@@ -45,7 +47,7 @@ pub(super) fn run(command: &Merge, context: &Context) -> Outcome {
     let mut merged = 0;
     for (folder, records) in parts {
         // Where several have one cell, the first is kept.
-        let new: Vec<Record> = records.into_values().filter(|r| !whole.records.contains_key(&r.cell)).collect();
+        let new: Vec<Record> = records.into_iter().filter(|r| !whole.records.contains_key(&r.cell)).collect();
         let mut pictures = Vec::new();
         for stem in new.iter().filter_map(|r| r.pictures.as_ref()) {
             pictures.extend([format!("{stem}.visibility.png"), format!("{stem}.error.png")]);

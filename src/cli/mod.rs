@@ -2,6 +2,7 @@
 //!
 //! stdout is data, stderr is messages and progress, `-` is stdin or stdout. Exit codes: see [`Exit`].
 
+mod chart;
 mod check;
 #[cfg(feature = "render")]
 mod comparison;
@@ -16,6 +17,7 @@ mod experiment;
 mod explain;
 mod figure;
 mod fmt;
+mod folder;
 mod generate;
 mod merge;
 mod new;
@@ -82,6 +84,7 @@ enum Command {
     Check(check::Check),
     Render(render::Render),
     Compare(compare::Compare),
+    Chart(chart::DrawChart),
     Figure(figure::DrawFigure),
     Study(study::RunStudy),
     Nodes(nodes::Nodes),
@@ -101,6 +104,7 @@ impl Command {
             Self::Check(c) => c.run(context),
             Self::Render(c) => c.run(context),
             Self::Compare(c) => c.run(context),
+            Self::Chart(c) => c.run(context),
             Self::Figure(c) => c.run(context),
             Self::Study(c) => c.run(context),
             Self::Nodes(c) => c.run(context),

@@ -180,8 +180,8 @@ pub(crate) fn fonts() -> usvg::Options<'static> {
     options
 }
 
-/// A drawing as pixels.
-fn rasterized(svg: &str) -> Result<Vec<u8>, Failure> {
+/// A drawing as a PNG file with two pixels a point, or fewer where it would be too large.
+pub(crate) fn rasterized(svg: &str) -> Result<Vec<u8>, Failure> {
     let tree = usvg::Tree::from_str(svg, &fonts()).map_err(|e| cannot(&e))?;
     let (width, height) = (tree.size().width(), tree.size().height());
     let scale = PIXELS.min(MOST / width.max(height));

@@ -2,6 +2,8 @@
 
 use std::collections::BTreeMap;
 
+use super::claims::Claim;
+use super::published::Published;
 use crate::diagnostic::Span;
 
 /// Version of the files that are read.
@@ -30,6 +32,10 @@ pub struct Study {
     pub rounds: usize,
     /// How often before that.
     pub warm_up: usize,
+    /// What others have measured.
+    pub published: Vec<Published>,
+    /// What is claimed of the times.
+    pub claims: Vec<Claim>,
 }
 
 /// A scene and one of its lights.

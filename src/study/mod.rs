@@ -7,12 +7,22 @@
 pub mod cells;
 #[cfg(feature = "render")]
 pub mod check;
+pub mod claims;
 mod codes;
 pub mod document;
+pub mod figures;
+pub mod fit;
+pub mod folder;
+pub mod front;
+pub mod published;
 pub mod read;
+mod reading;
 pub mod record;
+pub mod resample;
 #[cfg(feature = "render")]
 pub mod run;
+pub mod select;
+pub mod sheet;
 #[cfg(feature = "render")]
 mod silhouette;
 pub mod statistics;

@@ -3,8 +3,11 @@
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
+use super::claims::read_claims;
 use super::document::{Case, Grid, Method, Study, Timed, TruthSettings, VERSION};
-use crate::diagnostic::{Diagnostic, Place, SourceText, Span, did_you_mean};
+use super::published::read_published;
+use super::reading::Reader;
+use crate::diagnostic::{Diagnostic, Place, SourceText, Span, did_you_mean, has_errors};
 use crate::ron::{self, Field, Node, Tree, expect_fields, field, unknown_fields};
 
 /// Most mistakes that are told.
@@ -16,41 +19,27 @@ const MOST_ROUNDS: u64 = 10_000;
 
 /// Reads a study. With errors there is none. Whether its scenes, nodes and settings exist is checked by others.
 pub fn read(source: &Arc<SourceText>) -> (Option<Study>, Vec<Diagnostic>) {
-    let (document, found) = ron::read(source);
-    let mut reader = Reader { source, found };
+    let (document, mut found) = ron::read(source);
+    let mut reader = Reader { source, found: &mut found };
     let study = document.as_ref().and_then(|d| reader.study(&d.root));
-    let broken = crate::diagnostic::has_errors(&reader.found);
-    reader.found.truncate(MOST_FOUND);
-    (study.filter(|_| !broken), reader.found)
-}
-
-struct Reader<'a> {
-    source: &'a Arc<SourceText>,
-    found: Vec<Diagnostic>,
+    let broken = has_errors(&found);
+    found.truncate(MOST_FOUND);
+    (study.filter(|_| !broken), found)
 }
 
 impl Reader<'_> {
-    fn error(&mut self, code: &'static str, message: impl Into<String>, node: &Node, help: impl Into<String>) {
-        self.found.push(Diagnostic::error(code, message, node.place(self.source)).help(help));
-    }
-
     fn at_root(&mut self, code: &'static str, message: impl Into<String>, root: &Node, help: &str) {
         let end = root.span.start + "Study".len().min(root.span.len());
         let place = Place::span(Span::new(self.source, root.span.start..end));
         self.found.push(Diagnostic::error(code, message, place).help(help));
     }
 
-    fn take<T>(&mut self, reading: ron::Reading<T>) -> Option<T> {
-        reading.map_err(|d| self.found.push(*d)).ok()
-    }
-
     fn known(&mut self, fields: &[Field], known: &[&str]) {
         self.found.extend(unknown_fields(fields, known, self.source));
     }
 
-    fn text(&mut self, fields: &[Field], name: &str) -> String {
-        let node = field(fields, name);
-        node.and_then(|n| self.take(n.as_str(self.source).map(str::to_owned))).unwrap_or_default()
+    fn words(&mut self, fields: &[Field], name: &str) -> String {
+        self.text(fields, name).unwrap_or_default()
     }
 
     fn list<'n>(&mut self, fields: &'n [Field], name: &str) -> &'n [Node] {
@@ -90,9 +79,9 @@ impl Reader<'_> {
             }
         }
         let mut study = Study {
-            title: self.text(fields, "title"),
-            note: self.text(fields, "note"),
-            plain: self.text(fields, "plain"),
+            title: self.words(fields, "title"),
+            note: self.words(fields, "note"),
+            plain: self.words(fields, "plain"),
             truth: field(fields, "truth").map(|n| self.truth(n)).unwrap_or_default(),
             rounds: self.count(fields, "rounds", 20),
             warm_up: self.count(fields, "warm_up", 3),
@@ -115,6 +104,13 @@ impl Reader<'_> {
         for (name, key, node) in self.map(fields, "methods") {
             let method = self.method(name, key, node);
             study.methods.extend(method);
+        }
+        let methods: Vec<String> = study.methods.iter().map(|m| m.name.clone()).collect();
+        if let Some(node) = field(fields, "published") {
+            study.published = read_published(node, self.source, Some(&methods), self.found);
+        }
+        if let Some(node) = field(fields, "claims") {
+            study.claims = read_claims(node, self.source, Some(&methods), self.found);
         }
         for node in self.list(fields, "grids") {
             let grid = self.grid(node, &study);
@@ -232,9 +228,9 @@ impl Reader<'_> {
         let help = "a case `(scene: \"scene.ron\", light: \"sun\", class: \"...\")`";
         let fields = self.take(expect_fields(node, self.source, help))?;
         let case = Case {
-            scene: self.text(fields, "scene"),
-            light: self.text(fields, "light"),
-            class: field(fields, "class").map_or_else(|| name.clone(), |_| self.text(fields, "class")),
+            scene: self.words(fields, "scene"),
+            light: self.words(fields, "light"),
+            class: field(fields, "class").map_or_else(|| name.clone(), |_| self.words(fields, "class")),
             set: self.settings(fields),
             span: Some(Span::new(self.source, key.span.clone())),
             name,
@@ -250,7 +246,7 @@ impl Reader<'_> {
         let help = "a method `(shadow: \"pcf_shadow\", set: {\"width\": 3})`";
         let fields = self.take(expect_fields(node, self.source, help))?;
         let method = Method {
-            shadow: self.text(fields, "shadow"),
+            shadow: self.words(fields, "shadow"),
             set: self.settings(fields),
             vary: self.vary(fields),
             span: Some(Span::new(self.source, key.span.clone())),

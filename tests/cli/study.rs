@@ -75,7 +75,7 @@ fn cells_are_measured_once_and_compared_with_the_plain_map() {
     drop(lock);
     let strange = lines.replace("\"version\":1", "\"version\":9");
     std::fs::write(out.join("results.jsonl"), &strange).expect("written");
-    study(&file, &out, "").exits(1).says("ST0622").no_data();
+    study(&file, &out, "").exits(1).says("ST0662").no_data();
     assert_eq!(std::fs::read_to_string(out.join("results.jsonl")).expect("there"), strange, "left as it is");
 }
 
