@@ -12,15 +12,40 @@ use shadetree::compile::Output;
 use shadetree::preview::{Answer, Engine, Image, Look, Request, Show, Shown};
 use shadetree::render::AdapterOptions;
 
-/// What is shown, the document that is edited, and texts in it: before, with another value, with another structure.
-type Case = (&'static str, &'static str, &'static str, [&'static str; 3]);
+/// What is shown, the document that is edited, and texts in it that are replaced: a value, and what is structure.
+type Case = (&'static str, &'static str, &'static str, [[&'static str; 2]; 2]);
 
 const CASES: [Case; 5] = [
-    ("stage", "surfaces/lambert.ron", "lights/spot_pcf.ron", ["\"spot_light\", params: {", "", ""]),
-    ("stage", "surfaces/brick_wall.ron", "surfaces/brick_wall.ron", ["\"roughness\": 0.5", "\"roughness\": 0.6", ""]),
-    ("stage", "surfaces/bumpy_glass.ron", "surfaces/bumpy_glass.ron", ["", "", ""]),
-    ("scene", "scenes/car.ron", "lights/spot_soft.ron", ["\"intensity\": 90", "\"intensity\": 91", "variance_shadow"]),
-    ("scene", "scenes/three_lights.ron", "scenes/three_lights.ron", ["", "", ""]),
+    (
+        "stage",
+        "surfaces/lambert.ron",
+        "lights/spot_pcf.ron",
+        [["\"intensity\": 90", "\"intensity\": 91"], ["pcf_shadow", "variance_shadow"]],
+    ),
+    (
+        "stage",
+        "surfaces/brick_wall.ron",
+        "surfaces/brick_wall.ron",
+        [["\"roughness\": 0.5", "\"roughness\": 0.6"], ["oren_nayar\", params: {\"roughness\": 0.5}", "lambert\""]],
+    ),
+    (
+        "stage",
+        "surfaces/bumpy_glass.ron",
+        "surfaces/bumpy_glass.ron",
+        [["\"amplitude\": ", "\"amplitude\": 1"], ["\"octaves\": \"3\"", "\"octaves\": \"4\""]],
+    ),
+    (
+        "scene",
+        "scenes/car.ron",
+        "lights/spot_soft.ron",
+        [["\"intensity\": 90", "\"intensity\": 91"], ["variance_shadow", "moment_shadow"]],
+    ),
+    (
+        "scene",
+        "scenes/three_lights.ron",
+        "lights/sun_pcf.ron",
+        [["\"intensity\": 3", "\"intensity\": 4"], ["pcf_shadow", "variance_shadow"]],
+    ),
 ];
 
 fn main() {
@@ -32,15 +57,13 @@ fn main() {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("graphs");
     println!("{:<28} {:<12} {:>10} {:>10} {:>10} {:>6}", "shown", "edit", "compile", "to picture", "frame", "built");
     let mut revision = 0;
-    for (sort, shown, edited, [before, other, kind]) in CASES {
+    for (sort, shown, edited, [[value, other], [structure, another]]) in CASES {
         let file = root.join(edited);
         let Ok(text) = std::fs::read_to_string(&file) else { continue };
-        let value = if before.is_empty() || other.is_empty() { text.clone() } else { text.replace(before, other) };
-        // Another kind of shadow, or a node more.
-        let structure = match kind {
-            "" => text.replacen("nodes: {", "nodes: {\n        \"more\": (kind: \"color\"),", 1),
-            kind => text.replace(kind, "moment_shadow"),
-        };
+        for changed in [value, structure] {
+            assert!(text.contains(changed), "{edited} has no `{changed}`");
+        }
+        let (value, structure) = (text.replace(value, other), text.replace(structure, another));
         let mut built = 0;
         for (name, text) in [("open", text), ("value", value), ("structure", structure)] {
             revision += 1;
