@@ -83,11 +83,9 @@ fn fronts_hold_what_nothing_beats() {
 #[test]
 fn reports_say_what_there_is_and_come_out_the_same() {
     let records = records();
-    let (drawing, page, data) = report(&records, &Choice::default());
-    assert_eq!((&drawing, &page, &data), {
-        let (a, b, c) = report(&records, &Choice::default());
-        (&a.clone(), &b.clone(), &c.clone())
-    });
+    let all = report(&records, &Choice::default());
+    assert_eq!(all, report(&records, &Choice::default()));
+    let (drawing, page, data) = all;
     for part in ["computes on the CPU", "15 rounds", "llvmpipe", "time of all passes, ms", "RMS error"] {
         assert!(drawing.contains(part), "{part}");
     }
@@ -152,6 +150,14 @@ fn odd_numbers_are_drawn_or_left_out() {
     assert!(!drawing.contains("NaN") && !drawing.contains("inf"), "{drawing}");
     records.iter_mut().for_each(|r| r.errors.clear());
     assert!(Chart::new(&records, &Choice::default()).is_none());
+}
+
+/// Writes the results to the folder that `MADE_STUDY` names, for `shadetree chart` to be looked at.
+#[test]
+fn a_folder_to_look_at() {
+    if let Some(folder) = std::env::var_os("MADE_STUDY") {
+        crate::made_study::write(std::path::Path::new(&folder));
+    }
 }
 
 /// The drawing is well-formed, nothing lies outside of it, and words do not touch.
