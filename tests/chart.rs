@@ -152,14 +152,6 @@ fn odd_numbers_are_drawn_or_left_out() {
     assert!(Chart::new(&records, &Choice::default()).is_none());
 }
 
-/// Writes the results to the folder that `MADE_STUDY` names, for `shadetree chart` to be looked at.
-#[test]
-fn a_folder_to_look_at() {
-    if let Some(folder) = std::env::var_os("MADE_STUDY") {
-        crate::made_study::write(std::path::Path::new(&folder));
-    }
-}
-
 /// The drawing is well-formed, nothing lies outside of it, and words do not touch.
 #[cfg(feature = "render")]
 #[test]
