@@ -12,6 +12,8 @@ mod json;
 mod reference;
 #[cfg(feature = "render")]
 mod render;
+#[cfg(feature = "render")]
+mod study;
 #[cfg(unix)]
 mod watch;
 

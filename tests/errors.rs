@@ -15,7 +15,7 @@ use shadetree::diagnostic::{Diagnostic, Place, SourceText, has_errors};
 use shadetree::graph::{self, Graph};
 use shadetree::node::{Catalog, PassFile};
 use shadetree::semantic::Value;
-use shadetree::{explain, report, scene};
+use shadetree::{explain, report, scene, study};
 
 use crate::support::{catalog, expect_file, files, no_strays, root};
 
@@ -106,6 +106,7 @@ fn told(case: &Path) -> String {
     let is_scene = |case: &Path| source(case).text.lines().any(|line| line.starts_with("Scene("));
     match extension.as_str() {
         "" => show(&folder(case)),
+        "ron" if area == "study" => show(&study::read::read(&source(case)).1),
         "ron" if area == "check" || is_scene(case) => checked(case),
         "ron" => show(&graphs(&[source(case)], catalog())),
         "obj" => show(&scene::from_obj(&source(case)).err().unwrap_or_default()),

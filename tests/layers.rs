@@ -45,7 +45,7 @@ const ALLOWED: &[(&str, &[&str])] = &[
             "view",
         ],
     ),
-    ("study", &["diagnostic", "semantic", "ron", "node", "compile", "scene", "reference", "render", "studio"]),
+    ("study", &["diagnostic", "ron", "graph", "node", "weave", "compile", "scene", "reference", "render", "studio"]),
     ("chart", &["reference", "study"]),
     ("preview", &["cost", "diagnostic", "node", "compile", "scene", "reference", "render", "studio"]),
     (

@@ -9,7 +9,7 @@ use super::exit::{Exit, Failure, Outcome};
 use super::output;
 use crate::diagnostic::{Diagnostic, Place};
 use crate::studio::load::{Document, Loader};
-use crate::{graph, scene};
+use crate::{graph, scene, study};
 
 /// Write graph and scene files in canonical form
 #[derive(Args, Debug)]
@@ -45,14 +45,18 @@ impl Fmt {
 
     fn one(&self, context: &Context, path: &Path) -> Outcome {
         let loader = Loader::default();
-        let (text, document) = loader.document_with_text(path)?;
+        let text = loader.text(path)?;
+        let is_study = study::write::is_study(&text.text);
+        let document = if is_study { None } else { loader.document_of(&text, path) };
         let failed = context.report(&loader.take_found());
+        let failed = failed || is_study && context.report(&study::read::read(&text).1);
         // A file with errors is left alone: rewriting it could lose what was not understood.
-        let Some(document) = document.filter(|_| !failed) else { return Ok(Exit::Input) };
         let canonical = match document {
-            Document::Graph(graph) => graph::write(&graph),
-            Document::Scene(scene) => scene::write(&scene),
+            Some(Document::Graph(graph)) => Some(graph::write(&graph)),
+            Some(Document::Scene(scene)) => Some(scene::write(&scene)),
+            None => study::write::canonical(&text).filter(|_| is_study),
         };
+        let Some(canonical) = canonical.filter(|_| !failed) else { return Ok(Exit::Input) };
         let same = canonical == text.text;
         if self.check {
             if same {

@@ -12,10 +12,14 @@ mod context;
 mod doctor;
 mod edit;
 mod exit;
+#[cfg(feature = "render")]
+mod experiment;
 mod explain;
 mod figure;
 mod fmt;
+mod folder;
 mod generate;
+mod merge;
 mod new;
 mod nodes;
 mod output;
@@ -23,6 +27,7 @@ mod output;
 mod picture;
 mod render;
 mod results;
+mod study;
 #[cfg(feature = "render")]
 mod truth;
 mod watch;
@@ -81,6 +86,7 @@ enum Command {
     Compare(compare::Compare),
     Chart(chart::DrawChart),
     Figure(figure::DrawFigure),
+    Study(study::RunStudy),
     Nodes(nodes::Nodes),
     Fmt(fmt::Fmt),
     New(new::New),
@@ -100,6 +106,7 @@ impl Command {
             Self::Compare(c) => c.run(context),
             Self::Chart(c) => c.run(context),
             Self::Figure(c) => c.run(context),
+            Self::Study(c) => c.run(context),
             Self::Nodes(c) => c.run(context),
             Self::Fmt(c) => c.run(context),
             Self::New(c) => c.run(context),

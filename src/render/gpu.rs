@@ -6,7 +6,7 @@ use super::adapter::{AdapterOptions, AdapterSummary};
 use super::blocks::{check_camera, object_block};
 use super::device::{Device, check};
 use super::format::{self, Abilities, channels, name_of, texel_bytes};
-use super::job::{ColorFormat, Frame, Job, MapPicture};
+use super::job::{ColorFormat, Frame, Job, MapPicture, MapSummary};
 use super::main_pass::{Main, Target, background_spec, main_spec};
 use super::map_passes::Work;
 use super::map_store::{MapStore, casters};
@@ -79,6 +79,15 @@ impl Gpu {
 
     /// Renders a picture.
     pub fn render(&mut self, job: &Job<'_>) -> Result<Frame, RenderError> {
+        self.draw(job, true)
+    }
+
+    /// Renders a picture, waits until it is finished and leaves it on the device: what is of interest is how long it took.
+    pub fn time(&mut self, job: &Job<'_>) -> Result<Frame, RenderError> {
+        self.draw(job, false)
+    }
+
+    fn draw(&mut self, job: &Job<'_>, wanted: bool) -> Result<Frame, RenderError> {
         check_camera(&job.camera)?;
         let Self { device, pipelines, maps: store, uploads: kept } = self;
         let device = &*device;
@@ -128,7 +137,8 @@ impl Gpu {
             let prepared = Main { job, target, lights: &lights, maps: &maps, objects: &objects };
             let picture = prepared.render(device, &mut encoder, &timer, &main, background.as_deref(), &mut uploads)?;
             device.queue.submit([encoder.finish()]);
-            let pixels = read_back::texture(device, &picture)?;
+            let pixels = if wanted { read_back::texture(device, &picture)? } else { Vec::new() };
+            device.wait()?;
             let timings = timer.finish(device)?;
             add_new(&mut messages, uploads.messages);
             Ok(Frame { size: job.size, pixels, timings, adapter: device.summary.clone(), messages })
@@ -139,6 +149,19 @@ impl Gpu {
             kept.clear();
         }
         frame
+    }
+
+    /// The distinct maps that a job needs, as this adapter makes them.
+    pub fn maps_of(&self, job: &Job<'_>) -> Result<Vec<MapSummary>, RenderError> {
+        let lights = LightPlans::gather(&self.device, job)?;
+        let summary = |map: &MapPlan<'_>| MapSummary {
+            light: map.light.to_owned(),
+            side: map.side(),
+            layers: map.views.len(),
+            format: name_of(map.format()),
+            bits: 8 * texel_bytes(map.format()),
+        };
+        Ok(lights.maps.iter().map(summary).collect())
     }
 
     /// Renders a map of a light and reads it back: the one at `index` among the distinct maps of that light.

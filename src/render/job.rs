@@ -107,7 +107,8 @@ pub struct Job<'a> {
 pub struct Frame {
     /// Columns and rows.
     pub size: (u32, u32),
-    /// Linear colour, multiplied by coverage, and coverage; rows from the top, each from the left.
+    /// Linear colour, multiplied by coverage, and coverage; rows from the top, each from the left. None where only times
+    /// were asked for.
     pub pixels: Vec<[f32; 4]>,
     /// What each pass took, in the order that they ran.
     pub timings: Vec<PassTiming>,
@@ -148,6 +149,21 @@ pub struct PassTiming {
     pub name: String,
     /// Time on the device; none where it cannot be measured.
     pub milliseconds: Option<f64>,
+}
+
+/// A light's map, as an adapter makes it.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct MapSummary {
+    /// The light.
+    pub light: String,
+    /// Texels on a side of the finished map.
+    pub side: u32,
+    /// Views of the light, each with a layer.
+    pub layers: usize,
+    /// Name of the format of the finished map.
+    pub format: &'static str,
+    /// Bits of a texel of it.
+    pub bits: u32,
 }
 
 /// A light's map, read back.

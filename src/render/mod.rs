@@ -30,8 +30,8 @@ pub use error::RenderError;
 pub use format::Abilities;
 pub use gpu::Gpu;
 pub use job::{
-    ColorFormat, Draw, Frame, ImageLoader, Job, MapPicture, PassTiming, Picture, Surroundings, SurroundingsLevel,
-    Texels,
+    ColorFormat, Draw, Frame, ImageLoader, Job, MapPicture, MapSummary, PassTiming, Picture, Surroundings,
+    SurroundingsLevel, Texels,
 };
 pub use light_space::{Bounds, Eye, LIGHT_SPACE_BYTES, LightSpace, Surroundings as LightSurroundings, light_spaces};
 

@@ -175,17 +175,22 @@ impl Loader {
     /// As [`Self::document`], with the text that it was read from.
     pub fn document_with_text(&self, path: &Path) -> Result<(Arc<SourceText>, Option<Document>), Failure> {
         let source = self.text(path)?;
-        let document = match root_name(&source.text) {
-            "Scene" => self.keep(scene::read(&source)).map(|s| Document::Scene(Box::new(s))),
+        let document = self.document_of(&source, path);
+        Ok((source, document))
+    }
+
+    /// As [`Self::document`], of a text that was read from there.
+    pub fn document_of(&self, source: &Arc<SourceText>, path: &Path) -> Option<Document> {
+        match root_name(&source.text) {
+            "Scene" => self.keep(scene::read(source)).map(|s| Document::Scene(Box::new(s))),
             // Also for what is neither: the reader of graphs says what is missing.
-            _ => self.keep(graph::read(&source)).map(|mut g| {
+            _ => self.keep(graph::read(source)).map(|mut g| {
                 if let Some(focus) = self.focus.as_ref().filter(|f| f.graph == absolute(path)) {
                     focus.apply(&mut g);
                 }
                 Document::Graph(Box::new(g))
             }),
-        };
-        Ok((source, document))
+        }
     }
 
     /// The graph with its subgraphs put in place. None if there are errors, which are kept.

@@ -189,9 +189,24 @@ fn usual(catalog: &Catalog, kind: &str) -> Reference {
 
 /// The name of the only shadow of the light's graph, with the graph's before it.
 pub fn shadow_of(subject: &Subject<'_>, wanted: &str, weaver: &Weaver<'_>) -> Result<String, Failure> {
-    let fail = |message: String, help: &str| {
-        Failure::from(vec![Diagnostic::error("ST0521", message, Place::default()).help(help)])
-    };
+    let graph = graph_of(subject, wanted, weaver)?;
+    let nodes = graph.graph.nodes.iter().filter(|(_, node)| is_shadow(weaver.catalog, &node.kind));
+    let shadows: Vec<&String> = nodes.map(|(name, _)| name).collect();
+    match shadows[..] {
+        [shadow] => Ok(format!("{}/{shadow}", graph.name)),
+        _ => {
+            let message = format!("the light `{wanted}` has {} shadows", shadows.len());
+            Err(fail(message, "compare a light whose graph has one shadow node"))
+        }
+    }
+}
+
+fn fail(message: String, help: &str) -> Failure {
+    Failure::from(vec![Diagnostic::error("ST0521", message, Place::default()).help(help)])
+}
+
+/// The graph of a light.
+pub fn graph_of(subject: &Subject<'_>, wanted: &str, weaver: &Weaver<'_>) -> Result<NamedGraph, Failure> {
     let is = |name: &str| wanted == name || wanted.strip_prefix(name).is_some_and(|rest| rest.starts_with('/'));
     let scene_file = match (subject.scene, subject.files) {
         (None, [only]) => only.as_path(),
@@ -223,15 +238,7 @@ pub fn shadow_of(subject: &Subject<'_>, wanted: &str, weaver: &Weaver<'_>) -> Re
             return Err(fail(message, "see `shadetree check`"));
         }
     };
-    let nodes = graph.graph.nodes.iter().filter(|(_, node)| is_shadow(weaver.catalog, &node.kind));
-    let shadows: Vec<&String> = nodes.map(|(name, _)| name).collect();
-    match shadows[..] {
-        [shadow] => Ok(format!("{}/{shadow}", graph.name)),
-        _ => {
-            let message = format!("the light `{wanted}` has {} shadows", shadows.len());
-            Err(fail(message, "compare a light whose graph has one shadow node"))
-        }
-    }
+    Ok(graph)
 }
 
 /// Whether nodes of this kind are shadows.

@@ -47,6 +47,30 @@ pub fn draw(
     exposure: &Exposure,
     gpu: &mut Gpu,
 ) -> Result<Frame, RenderError> {
+    with_job(shot, assets, stock, loader, exposure, |job| {
+        let Aov::Map(light, index) = &exposure.aov else { return gpu.render(job) };
+        let lights = shot.lights();
+        let name = light_called(lights.iter().map(String::as_str), light).unwrap_or(light);
+        let map = gpu.map(job, name, *index)?;
+        Ok(Frame {
+            size: map.size,
+            pixels: map.pixels,
+            adapter: gpu.adapter().clone(),
+            messages: map.messages,
+            timings: Vec::new(),
+        })
+    })
+}
+
+/// Hands over the job that takes the picture.
+pub fn with_job<T>(
+    shot: &Shot,
+    assets: &Assets,
+    stock: &Stock,
+    loader: &Loader,
+    exposure: &Exposure,
+    work: impl FnOnce(&Job<'_>) -> T,
+) -> T {
     let mut draws = Vec::new();
     for (object, mesh) in assets.scene.objects.iter().zip(&assets.meshes) {
         let own = shot.shaders.iter().find(|s| s.objects.is_empty() || s.objects.contains(&object.name));
@@ -62,7 +86,7 @@ pub fn draw(
         }
     }
     let images = |path: &str, base: &str| stock.image(loader, path, base);
-    let job = Job {
+    work(&Job {
         draws,
         camera: exposure.camera.unwrap_or_else(|| assets.scene.camera.camera()),
         surroundings: Some(&*assets.surroundings).filter(|_| exposure.aov == Aov::Output(Output::Radiance)),
@@ -71,20 +95,7 @@ pub fn draw(
         time: exposure.time,
         images: &images,
         output: exposure.format,
-    };
-    if let Aov::Map(light, index) = &exposure.aov {
-        let lights = shot.lights();
-        let name = light_called(lights.iter().map(String::as_str), light).unwrap_or(light);
-        let map = gpu.map(&job, name, *index)?;
-        return Ok(Frame {
-            size: map.size,
-            pixels: map.pixels,
-            adapter: gpu.adapter().clone(),
-            messages: map.messages,
-            timings: Vec::new(),
-        });
-    }
-    gpu.render(&job)
+    })
 }
 
 impl From<RenderError> for Failure {

@@ -30,6 +30,8 @@ pub enum Target {
     Option,
     /// The kind of the node itself (`--kind`).
     Kind,
+    /// The same, and nothing is left that was set on the node: it is as if just added.
+    Fresh,
 }
 
 /// Reads `NODE=KIND`. The error says what is wrong.
@@ -111,7 +113,7 @@ pub fn apply(assignments: &[Assignment], graphs: &mut [NamedGraph], catalog: &Ca
         let (flag, value) = match assignment.target {
             Target::Port => ("--set", assignment.value().map_err(|m| vec![wrong(m)])?),
             Target::Option => ("--option", Value::Bool(true)),
-            Target::Kind => ("--kind", Value::Bool(true)),
+            Target::Kind | Target::Fresh => ("--kind", Value::Bool(true)),
         };
         let (graph, node) = match assignment.node.split_once('/') {
             Some((graph, node)) if graphs.iter().any(|g| g.name == graph) => (Some(graph), node),
@@ -124,6 +126,12 @@ pub fn apply(assignments: &[Assignment], graphs: &mut [NamedGraph], catalog: &Ca
             match assignment.target {
                 Target::Port => drop(named.set.insert(format!("{node}.{}", assignment.name), value.clone())),
                 Target::Option => drop(target.options.insert(assignment.name.clone(), assignment.value.clone())),
+                Target::Fresh => {
+                    target.kind.clone_from(&assignment.value);
+                    target.params.clear();
+                    target.options.clear();
+                    named.set.retain(|path, _| path.rsplit_once('.').is_none_or(|(of, _)| of != node));
+                }
                 Target::Kind => {
                     change_kind(target, &assignment.value, catalog);
                     let kept = |path: &String| match path.rsplit_once('.') {

@@ -6,7 +6,7 @@ use std::time::Instant;
 
 use super::failure::Failure;
 use super::load::Loader;
-use super::picture::{Exposure, draw};
+use super::picture::{Exposure, with_job};
 use super::shot::Shot;
 use super::stock::{Assets, Stock};
 use crate::node::PassKind;
@@ -58,7 +58,7 @@ pub struct Lap {
 pub struct Laps {
     /// Its passes, in the order in which they run.
     pub passes: Vec<Lap>,
-    /// From the submission to the pixels on the host, milliseconds, round by round.
+    /// From the job to the finished picture, which stays on the device: milliseconds, round by round.
     pub wall: Vec<f64>,
     /// What was done otherwise than asked.
     pub messages: Vec<String>,
@@ -89,19 +89,18 @@ pub fn race(
             if cancel.load(Ordering::Relaxed) {
                 return Err(Failure::cancelled());
             }
-            let begin = Instant::now();
-            let frame = draw(&entrant.shot, &entrant.assets, stock, loader, &entrant.exposure, gpu)?;
-            let wall = begin.elapsed().as_secs_f64() * 1e3;
+            let Entrant { shot, assets, exposure } = entrant;
+            let (frame, wall) = with_job(shot, assets, stock, loader, exposure, |job| {
+                let begin = Instant::now();
+                (gpu.time(job), begin.elapsed().as_secs_f64() * 1e3)
+            });
+            let frame = frame?;
             each();
             if round < rounds.warm_up {
                 continue;
             }
             if laps.passes.is_empty() {
-                let lap = |name: &String| Lap {
-                    name: name.clone(),
-                    part: part(&entrant.shot, name),
-                    milliseconds: Vec::new(),
-                };
+                let lap = |name: &String| Lap { name: name.clone(), part: part(shot, name), milliseconds: Vec::new() };
                 laps.passes = frame.timings.iter().map(|t| lap(&t.name)).collect();
                 laps.messages = frame.messages;
             }

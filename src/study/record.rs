@@ -50,7 +50,7 @@ pub struct Record {
     pub triangles: usize,
     /// Times of each pass, in milliseconds on the adapter, in the order in which they run.
     pub passes: Vec<Series>,
-    /// Time from the submission of the frame to its pixels on the host, milliseconds, round by round.
+    /// Time from the job to the finished frame, which stays on the device: milliseconds, round by round.
     pub wall: Vec<f64>,
     /// Time of all passes of the plain shadow map of the same case, frame and side, in the same rounds.
     pub plain: Vec<f64>,
