@@ -41,7 +41,7 @@ pub const ADAPTER: &str = "llvmpipe (made up)";
 /// Rounds around a value: spread a little, with one that lies far off in every second cell.
 fn rounds(value: f64, seed: u32) -> Vec<f64> {
     let wobble = |i: u32| f64::from((i * 37 + seed * 11) % 23) / 23.0 - 0.5;
-    let far = |i: u32| if seed % 2 == 0 && i == 4 { 1.8 } else { 1.0 };
+    let far = |i: u32| if seed.is_multiple_of(2) && i == 4 { 1.8 } else { 1.0 };
     (0..15).map(|i| value * (1.0 + 0.03 * wobble(i)) * far(i)).collect()
 }
 
@@ -158,7 +158,6 @@ fn record(
             driver: "Mesa 0.0".into(),
             backend: "vulkan".into(),
             software: true,
-            ..Machine::default()
         },
         versions: BTreeMap::from([("shadetree".to_owned(), "0.1.0".to_owned())]),
         messages: if bits == 128 {

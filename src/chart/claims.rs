@@ -19,7 +19,7 @@ pub(super) fn section(verdicts: &[Verdict], machine: &Machine) -> String {
     let _ = writeln!(
         out,
         "<p>Each is judged by medians. The interval holds {:.0}% of what it comes to when the rounds are drawn again \
-(bootstrap); where it reaches across the bound, another run may decide otherwise. A law must hold on every device; the \
+(bootstrap); where it reaches across a bound, it is in italics, and another run may decide otherwise. A law must hold on every device; the \
 rest are facts about {}.</p>\n<p>{}</p>",
         CONFIDENCE * 100.0,
         escaped(device),

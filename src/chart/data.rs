@@ -111,7 +111,11 @@ pub struct Panel<'a> {
 impl Panel<'_> {
     /// What it is called.
     pub fn title(&self) -> String {
-        if self.case.is_empty() { self.class.clone() } else { format!("{}: {}", self.class, self.case) }
+        if self.case.is_empty() || self.case == self.class {
+            self.class.clone()
+        } else {
+            format!("{}: {}", self.class, self.case)
+        }
     }
 
     /// Times and errors of the points.

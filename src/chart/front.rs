@@ -77,12 +77,10 @@ pub(super) fn tables(chart: &Chart<'_>) -> String {
     out
 }
 
-fn table(
-    out: &mut String,
-    chart: &Chart<'_>,
-    heads: &[String],
-    winner: &dyn Fn(&Panel<'_>, usize) -> Option<(usize, String)>,
-) {
+/// The point that wins in a panel and a column, and what is said of it.
+type Winner<'a> = &'a dyn Fn(&Panel<'_>, usize) -> Option<(usize, String)>;
+
+fn table(out: &mut String, chart: &Chart<'_>, heads: &[String], winner: Winner<'_>) {
     out.push_str("<div class=\"wide\"><table><thead><tr><th>class</th>");
     heads.iter().for_each(|head| out.push_str(&format!("<th>{}</th>", escaped(head))));
     out.push_str("</tr></thead><tbody>\n");

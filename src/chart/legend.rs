@@ -42,21 +42,29 @@ pub(super) fn legend(chart: &Chart<'_>, most: f64) -> (String, f64) {
     let beaten =
         mark(first, [11.0, 0.0], 5.0, &format!("fill=\"{}\" stroke=\"#9aa0a8\" stroke-width=\"0.8\"", pale(first)));
     let line = format!("<path d=\"M0 0h22\" stroke=\"{INK}\" stroke-width=\"1.7\"/>{best}");
-    let mut pieces = vec![(line, front.to_owned()), (beaten, "beaten by another".to_owned())];
+    let mut pieces = vec![(line, front.to_owned(), 28.0), (beaten, "beaten by another".to_owned(), 28.0)];
+    // The sizes belong together, so they are one piece.
+    let mut sizes = String::new();
+    let mut at = 11.0;
     for bits in [16, 32, 64, 128] {
-        let shape = format!(
-            "<circle cx=\"11\" cy=\"0\" r=\"{:.2}\" fill=\"none\" stroke=\"{INK}\" stroke-width=\"0.9\"/>",
-            radius(Some(bits))
+        let r = radius(Some(bits));
+        let _ = write!(
+            sizes,
+            "<circle cx=\"{at:.1}\" cy=\"0\" r=\"{r:.2}\" fill=\"none\" stroke=\"{INK}\" stroke-width=\"0.9\"/>"
         );
-        let text = if bits == 128 { "128 bits a texel of the map".to_owned() } else { bits.to_string() };
-        pieces.push((shape, text));
+        if bits < 128 {
+            sizes.push_str(&words(at + r + 5.0, 0.0, &bits.to_string()));
+            at += r + 34.0;
+        }
     }
-    for (shape, text) in pieces {
-        let wide = 28.0 + width(&text, SIZE);
+    let last = at + radius(Some(128)) + 5.0;
+    pieces.push((sizes, "128 bits a texel of the map".to_owned(), last));
+    for (shape, text, indent) in pieces {
+        let wide = indent + width(&text, SIZE);
         if x > 0.0 && x + wide > most {
             (x, y) = (0.0, y + ROW);
         }
-        let _ = writeln!(out, "<g transform=\"translate({x:.1} {y:.1})\">{shape}{}</g>", words(28.0, 0.0, &text));
+        let _ = writeln!(out, "<g transform=\"translate({x:.1} {y:.1})\">{shape}{}</g>", words(indent, 0.0, &text));
         x += wide + 18.0;
     }
     (out, y + 12.0)

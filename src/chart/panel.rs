@@ -141,7 +141,7 @@ fn curves(out: &mut String, panel: &Panel<'_>, place: &dyn Fn(usize) -> [f64; 2]
     for curve in panel.curves.iter().filter(|c| c.points.len() > 1) {
         let _ = writeln!(
             out,
-            "<polyline points=\"{}\" fill=\"none\" stroke=\"{}\" stroke-width=\"1.1\" stroke-opacity=\"0.5\" stroke-linejoin=\"round\"/>",
+            "<polyline points=\"{}\" fill=\"none\" stroke=\"{}\" stroke-width=\"1.1\" stroke-opacity=\"0.45\" stroke-linejoin=\"round\"/>",
             joined(curve.points.iter().map(|i| place(*i))),
             color(curve.method)
         );

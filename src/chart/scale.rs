@@ -55,7 +55,7 @@ impl Scale {
         let decades = self.high.log10() - self.low.log10();
         let (labelled, small): (&[f64], &[f64]) = match decades {
             d if d < 0.8 => (&[1.0, 1.5, 2.0, 3.0, 4.0, 5.0, 6.0, 8.0], &[]),
-            d if d < 2.2 => (&[1.0, 2.0, 5.0], &[3.0, 4.0, 6.0, 7.0, 8.0, 9.0]),
+            d if d < 2.7 => (&[1.0, 2.0, 5.0], &[3.0, 4.0, 6.0, 7.0, 8.0, 9.0]),
             _ => (&[1.0], &[2.0, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0, 9.0]),
         };
         // With very many decades not each has a label.

@@ -163,7 +163,9 @@ fn judge_one(claim: &Claim, records: &[Record]) -> Verdict {
     let mut parts: Vec<Part> = lines.iter().flat_map(|line| measure(claim, kind, line)).collect();
     distinguish(&mut parts, &lines);
     if parts.is_empty() {
-        let reason = format!("no {} methods were measured at enough places along `{}`", claim.time.name(), claim.over);
+        let of = if missing.is_empty() { "any method".to_owned() } else { missing.join(", ") };
+        let least = if kind.points == 1 { "1 place".to_owned() } else { format!("{} places", kind.points) };
+        let reason = format!("needs the {} time of {of} at {least} or more along `{}`", claim.time.name(), claim.over);
         return verdict(Outcome::NotMeasured, parts, &reason);
     }
     if !parts.iter().all(|p| p.held) {

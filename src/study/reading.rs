@@ -111,7 +111,7 @@ impl Reader<'_> {
             }
         }
         let frame = frame.and_then(|frame| {
-            let whole = |x: f64| x >= 1.0 && x <= 16_384.0 && x.fract() == 0.0;
+            let whole = |x: f64| (1.0..=16_384.0).contains(&x) && x.fract() == 0.0;
             if !frame.into_iter().all(whole) {
                 if let Some(node) = field(fields, "frame") {
                     let help = "write columns and rows, from 1 to 16384, as `(1024, 768)`";

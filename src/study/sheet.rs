@@ -29,7 +29,7 @@ pub fn read(source: &Arc<SourceText>) -> (Sheet, Vec<Diagnostic>) {
         Tree::Struct(Some(name), fields) if name == "Study" => fields,
         other => {
             let message = format!("expected `Study(...)`, found {}", other.describe());
-            let help = "claims and published tables are left out; put the study's file here";
+            let help = "put the study's file there, or do without claims and published tables by removing it";
             found.push(Diagnostic::error("ST0667", message, Place::file(&source.name)).help(help));
             return (Sheet::default(), found);
         }
