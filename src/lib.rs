@@ -23,6 +23,7 @@ pub mod view;
 pub mod render;
 pub mod studio;
 pub mod study;
+pub mod simplify;
 #[cfg(feature = "render")]
 pub mod preview;
 #[cfg(feature = "gui")]

@@ -46,6 +46,23 @@ const ALLOWED: &[(&str, &[&str])] = &[
         ],
     ),
     ("study", &["diagnostic", "semantic", "ron", "node", "compile", "scene", "reference", "render", "studio"]),
+    (
+        "simplify",
+        &[
+            "cost",
+            "diagnostic",
+            "semantic",
+            "graph",
+            "node",
+            "weave",
+            "compile",
+            "scene",
+            "render",
+            "view",
+            "studio",
+            "study",
+        ],
+    ),
     ("preview", &["cost", "diagnostic", "node", "compile", "scene", "reference", "render", "studio"]),
     (
         "gui",

@@ -3,6 +3,7 @@
 //! synonyms: stone, veins, turbulence
 //! use: box_filter, perlin
 //! Veined stone: parallel bands whose position is disturbed by turbulence (Perlin 1985, section "Marble").
+//! cheaper: constant - The mean of the pattern.
 
 /// position (point object; = @position_object): Where to look the stone up.
 /// direction (vector; = (1, 0.5, 0.3)): Across the veins; its length does not matter.

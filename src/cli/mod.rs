@@ -15,12 +15,15 @@ mod explain;
 mod figure;
 mod fmt;
 mod generate;
+#[cfg(feature = "render")]
+mod ladder;
 mod new;
 mod nodes;
 mod output;
 #[cfg(feature = "render")]
 mod picture;
 mod render;
+mod simplify;
 #[cfg(feature = "render")]
 mod truth;
 mod watch;
@@ -78,6 +81,7 @@ enum Command {
     Render(render::Render),
     Compare(compare::Compare),
     Figure(figure::DrawFigure),
+    Simplify(simplify::Simplify),
     Nodes(nodes::Nodes),
     Fmt(fmt::Fmt),
     New(new::New),
@@ -96,6 +100,7 @@ impl Command {
             Self::Render(c) => c.run(context),
             Self::Compare(c) => c.run(context),
             Self::Figure(c) => c.run(context),
+            Self::Simplify(c) => c.run(context),
             Self::Nodes(c) => c.run(context),
             Self::Fmt(c) => c.run(context),
             Self::New(c) => c.run(context),

@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
+use super::cheaper::CheaperSpec;
 use crate::diagnostic::SourceText;
 use crate::semantic::{Shape, Type, Value};
 
@@ -54,6 +55,8 @@ pub struct Header {
     pub samplers: Vec<SamplerSpec>,
     /// How images are read, by port.
     pub textures: Vec<TextureSpec>,
+    /// Cheaper forms that can stand for the node.
+    pub cheaper: Vec<CheaperSpec>,
 }
 
 /// A structural choice.
