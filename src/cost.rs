@@ -10,7 +10,7 @@ mod turns;
 
 use std::collections::BTreeMap;
 
-use naga::{Block, Expression, Function, Handle, Span, Statement};
+use naga::{Expression, Function, Handle, Span, Statement};
 
 use turns::turns;
 

@@ -11,6 +11,8 @@ mod json;
 mod reference;
 #[cfg(feature = "render")]
 mod render;
+#[cfg(feature = "render")]
+mod simplify;
 #[cfg(unix)]
 mod watch;
 

@@ -14,6 +14,7 @@ mod layers;
 mod matrix;
 #[cfg(feature = "render")]
 mod minimal;
+mod simplify;
 #[cfg(feature = "render")]
 mod stability;
 #[cfg(feature = "render")]

@@ -53,8 +53,7 @@ pub(super) fn run(command: &Simplify, context: &Context) -> Outcome {
         by: if command.by == By::Time { trial::By::Time } else { trial::By::Operations },
     };
     let cancel = AtomicBool::new(false);
-    let mut tools =
-        Tools { loader: &loader, catalog: &catalog, gpu: &mut gpu, cancel: &cancel, each: &|| bar.inc(1) };
+    let mut tools = Tools { loader: &loader, catalog: &catalog, gpu: &mut gpu, cancel: &cancel, each: &|| bar.inc(1) };
     let all = ladders(&material, &wanted, &mut tools);
     bar.finish_and_clear();
     let all = all?;
@@ -62,9 +61,15 @@ pub(super) fn run(command: &Simplify, context: &Context) -> Outcome {
     if all.iter().any(|l| l.cut) {
         context.say("the search ended before everything was tried: the material has very many cheaper forms");
     }
+    for ladder in all.iter().filter(|l| l.rungs.len() == 1 && !l.singles.is_empty()) {
+        let at = metres(ladder.distance);
+        context
+            .say(&format!("at {at} m no cheaper form stays within the error of {}: raise --max-error", wanted.error));
+    }
     let text = if context.is_json() { listed(&all, &files, &adapter) } else { tables(&all, &files, &adapter) };
     output::print(text.as_bytes())?;
-    let written: Vec<(&Path, &[u8])> = files.iter().flatten().flatten().map(|(p, t)| (p.as_path(), t.as_bytes())).collect();
+    let written: Vec<(&Path, &[u8])> =
+        files.iter().flatten().flatten().map(|(p, t)| (p.as_path(), t.as_bytes())).collect();
     output::write_all(&written)?;
     for (path, _) in written {
         context.detail(&format!("wrote {}", path.display()));
@@ -95,7 +100,8 @@ fn tables(all: &[Ladder], files: &Files, adapter: &AdapterSummary) -> String {
     let mut text = String::new();
     for (ladder, files) in all.iter().zip(files) {
         text += &format!("at {} m, over {} pixels\n", metres(ladder.distance), ladder.pixels);
-        text += &format!("{:5} {:>8} {:>10} {:>5} {:>14}  {}\n", "rung", "error", "operations", "reads", "time", "swaps");
+        text +=
+            &format!("{:5} {:>8} {:>10} {:>5} {:>14}  {}\n", "rung", "error", "operations", "reads", "time", "swaps");
         for (index, rung) in ladder.rungs.iter().enumerate() {
             let name = if index == 0 { "full".to_owned() } else { format!("lod{index}") };
             let time = rung.time.map_or("1".into(), |t| format!("{:.2} +- {:.2}", t.median, t.mad));
@@ -114,14 +120,20 @@ fn tables(all: &[Ladder], files: &Files, adapter: &AdapterSummary) -> String {
         if !ladder.singles.is_empty() {
             text += "each swap by itself:\n";
             for single in &ladder.singles {
-                text += &format!("{:5} {:>8.4} {:>10.4}  {}\n", "", single.figures.error, single.figures.cost, single.words);
+                text += &format!(
+                    "{:5} {:>8.4} {:>10.4}  {}\n",
+                    "", single.figures.error, single.figures.cost, single.words
+                );
             }
         }
         text.push('\n');
     }
     let clock = if all.iter().all(|l| l.on_adapter) { "on" } else { "from submission to pixels, on" };
     let software = if adapter.software { ", which computes on the CPU" } else { "" };
-    text + &format!("times beside the full material's in the same rounds (median +- MAD), {clock} {}{software}\n", adapter.name)
+    text + &format!(
+        "times beside the full material's in the same rounds (median +- MAD), {clock} {}{software}\n",
+        adapter.name
+    )
 }
 
 fn listed(all: &[Ladder], files: &Files, adapter: &AdapterSummary) -> String {

@@ -9,13 +9,16 @@ use super::exit::Outcome;
 
 /// Find cheaper shaders for a material: a ladder of levels of detail with what each costs and how far it is off
 #[derive(Args, Debug)]
-#[command(after_help = "The error is the RMSE of linear radiance over the mean radiance of the full material.
+#[command(
+    after_help = "The error is the RMSE of linear radiance over the mean radiance of the full material, where what is brighter than 99 of
+100 values counts as just that bright.
 
 Examples:
   shadetree simplify graphs/surfaces/rust.ron
   shadetree simplify graphs/surfaces/rust.ron -o lods --distance 4,16,64
   shadetree simplify graphs/lights/sun_pcf.ron graphs/surfaces/brick_wall.ron --max-error 0.05 --format json
-  shadetree simplify marble.ron --scene graphs/scenes/car.ron --by time --rungs 2")]
+  shadetree simplify marble.ron --scene graphs/scenes/car.ron --by time --rungs 2"
+)]
 pub(super) struct Simplify {
     /// Graph files, woven together by type: one has the surface; `-` is stdin
     #[arg(required = true, value_name = "GRAPH")]

@@ -141,7 +141,9 @@ mod tests {
     #[test]
     fn loops_that_say_how_often_they_turn_are_counted() {
         let of = |head: &str| {
-            found(&format!("const N: i32 = 5;\nfn f(n: i32) -> f32 {{ var s = 0.0; for ({head}) {{ s += 1.5; }} return s; }}"))
+            found(&format!(
+                "const N: i32 = 5;\nfn f(n: i32) -> f32 {{ var s = 0.0; for ({head}) {{ s += 1.5; }} return s; }}"
+            ))
         };
         assert_eq!(of("var i = 0; i < N; i++"), [5]);
         assert_eq!(of("var i = -N; i <= N; i += 2"), [6]);

@@ -48,7 +48,8 @@ pub fn markdown(definition: &Definition) -> String {
         }
     }
     if !header.cheaper.is_empty() {
-        let _ = writeln!(out, "\nCheaper: {}", header.cheaper.iter().map(|c| c.doc.as_str()).collect::<Vec<_>>().join(" "));
+        let _ =
+            writeln!(out, "\nCheaper: {}", header.cheaper.iter().map(|c| c.doc.as_str()).collect::<Vec<_>>().join(" "));
     }
     out
 }
@@ -90,7 +91,9 @@ pub fn text(definition: &Definition) -> String {
     }
     if !header.cheaper.is_empty() {
         out.push_str("\ncheaper:\n");
-        header.cheaper.iter().for_each(|form| drop(writeln!(out, "  {}", form.doc)));
+        for form in &header.cheaper {
+            let _ = writeln!(out, "  {}", form.doc);
+        }
     }
     out
 }

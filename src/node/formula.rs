@@ -55,7 +55,8 @@ impl Formula {
             Self::Both(operator, both) => {
                 // What is multiplied by nothing need not be known.
                 let (left, right) = (both.0.reduce(of), both.1.reduce(of));
-                let is = |side: &Option<Known>, x: f64| matches!(side, Some(Known::Numbers(n)) if n.iter().all(|y| *y == x));
+                let is =
+                    |side: &Option<Known>, x: f64| matches!(side, Some(Known::Numbers(n)) if n.iter().all(|y| *y == x));
                 match operator {
                     '*' if is(&left, 0.0) || is(&right, 0.0) => Some(Known::Numbers(vec![0.0])),
                     '+' if is(&left, 0.0) => right,

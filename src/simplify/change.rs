@@ -20,8 +20,7 @@ pub fn made(graph: &Graph, catalog: &Catalog, swap: &Swap, means: &Means) -> Opt
     let change = Change { catalog, node: &swap.node, definition: definition(graph, catalog, &swap.node)? };
     match &swap.what {
         What::Choose(option, choice) => {
-            let edit =
-                Edit::SetOption { node: swap.node.clone(), option: option.clone(), value: Some(choice.clone()) };
+            let edit = Edit::SetOption { node: swap.node.clone(), option: option.clone(), value: Some(choice.clone()) };
             apply(&mut after, edit).ok()?;
         }
         What::Become(kind, inputs) => change.become_kind(&mut after, kind, inputs)?,
@@ -278,9 +277,15 @@ mod tests {
         assert!(text.contains("\"veins.color -> look.albedo\""), "{text}");
         // Half a metal would need its colour to be computed for every point.
         let metal = STONE.replace("\"roughness\"", "\"metallic\": 0.5, \"roughness\"");
-        assert_eq!(after(&graph(&metal, "\"veins.color -> look.base_color\""), "look: blinn_phong", &Means::new()), None);
+        assert_eq!(
+            after(&graph(&metal, "\"veins.color -> look.base_color\""), "look: blinn_phong", &Means::new()),
+            None
+        );
         let text = after(&graph(&metal, ""), "look: blinn_phong", &Means::new()).expect("made");
-        assert!(text.contains("\"albedo\": (0.4, 0.4, 0.4)") && text.contains("\"specular\": (0.42, 0.42, 0.42)"), "{text}");
+        assert!(
+            text.contains("\"albedo\": (0.4, 0.4, 0.4)") && text.contains("\"specular\": (0.42, 0.42, 0.42)"),
+            "{text}"
+        );
     }
 
     #[test]
@@ -292,7 +297,10 @@ mod tests {
         let wanted = wanted_means(&fed, &catalog, &swaps(&fed, &catalog));
         assert_eq!(wanted, means.keys().cloned().collect::<Vec<_>>());
         let text = after(&fed, "veins: its mean", &means).expect("made");
-        assert!(text.contains("\"veins color\": (kind: \"color\", params: {\"color\": (0.7354, 0.7354, 0.7354)}"), "{text}");
+        assert!(
+            text.contains("\"veins color\": (kind: \"color\", params: {\"color\": (0.7354, 0.7354, 0.7354)}"),
+            "{text}"
+        );
         assert!(text.contains("\"veins vein.value -> look.metallic\"") && !text.contains("kind: \"marble\""), "{text}");
         assert_eq!(after(&fed, "veins: its mean", &Means::new()), None);
     }
@@ -300,11 +308,17 @@ mod tests {
     #[test]
     fn what_feeds_an_input_stands_for_the_node_and_leaves_nothing_behind() {
         let nodes = "\"look\": (kind: \"clear_coat\"), \"paint\": (kind: \"lambert\"), \"bump\": (kind: \"bump\"), \"n\": (kind: \"fbm3d\")";
-        let coat = graph(nodes, "\"paint.radiance -> look.base\", \"n.value -> bump.height\", \"bump.normal -> paint.normal\"");
+        let coat = graph(
+            nodes,
+            "\"paint.radiance -> look.base\", \"n.value -> bump.height\", \"bump.normal -> paint.normal\"",
+        );
         let text = after(&coat, "look: what feeds base", &Means::new()).expect("made");
         assert!(text.contains("output: \"paint.radiance\"") && !text.contains("clear_coat"), "{text}");
         let text = after(&coat, "bump: what feeds normal", &Means::new()).expect("made");
-        assert!(!text.contains("bump") && !text.contains("fbm3d") && text.contains("paint.radiance -> look.base"), "{text}");
+        assert!(
+            !text.contains("bump") && !text.contains("fbm3d") && text.contains("paint.radiance -> look.base"),
+            "{text}"
+        );
         // A roughness does not fall back to a normal.
         let odd = graph("\"look\": (kind: \"ggx\"), \"bump\": (kind: \"bump\")", "\"bump.normal -> look.base_color\"");
         assert_eq!(after(&odd, "bump: what feeds normal", &Means::new()), None);

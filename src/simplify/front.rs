@@ -42,7 +42,8 @@ mod tests {
 
     #[test]
     fn only_what_nothing_beats_is_on_the_front() {
-        let points = [(10.0, 0.0), (8.0, 0.1), (9.0, 0.2), (5.0, 0.3), (5.0, 0.2), (5.0, 0.2), (f64::NAN, 0.0), (1.0, 0.9)];
+        let points =
+            [(10.0, 0.0), (8.0, 0.1), (9.0, 0.2), (5.0, 0.3), (5.0, 0.2), (5.0, 0.2), (f64::NAN, 0.0), (1.0, 0.9)];
         assert_eq!(front(&points), [0, 1, 4, 7]);
         assert_eq!(front(&[]), [0usize; 0]);
     }

@@ -93,7 +93,7 @@ fn ladder(
         .map(|(index, time)| {
             let point = &found.points[*index];
             let (graph, cost) = (point.variant.graph.clone(), point.variant.cost);
-            Rung { graph, cost, swaps: point.swaps.clone(), error: point.figures.error, time }
+            Rung { graph, cost, swaps: last_of_each(&point.swaps), error: point.figures.error, time }
         })
         .collect();
     Ok(Ladder {
@@ -117,6 +117,14 @@ fn chosen(found: &Searched<Variant>, most: usize) -> Vec<usize> {
     thinned(&points, &all, most)
 }
 
+/// The swaps without those that a later one took back: of several choices of one option the last.
+fn last_of_each(swaps: &[String]) -> Vec<String> {
+    let option = |words: &str| words.split_once(" = ").map(|(option, _)| option.to_owned());
+    let later =
+        |i: usize| option(&swaps[i]).is_some_and(|o| swaps[i + 1..].iter().any(|s| option(s).as_ref() == Some(&o)));
+    (0..swaps.len()).filter(|i| !later(*i)).map(|i| swaps[i].clone()).collect()
+}
+
 /// Without the rungs that were not faster than those before them when all were timed together.
 fn still_faster(rungs: Vec<Rung>) -> Vec<Rung> {
     let mut fastest = f64::INFINITY;
@@ -137,6 +145,12 @@ mod tests {
     fn rung(time: Option<f64>) -> Rung {
         let time = time.and_then(|t| Spread::of(&[t]));
         Rung { graph: Graph::default(), swaps: Vec::new(), error: 0.0, cost: Cost::default(), time }
+    }
+
+    #[test]
+    fn what_was_chosen_last_is_said() {
+        let swaps = ["n: octaves = 4", "m: lambert", "n: octaves = 2", "k: octaves = 4"].map(str::to_owned);
+        assert_eq!(last_of_each(&swaps), ["m: lambert", "n: octaves = 2", "k: octaves = 4"]);
     }
 
     #[test]

@@ -3,10 +3,10 @@
 use std::collections::BTreeMap;
 use std::path::{Component, Path, PathBuf};
 
+use crate::diagnostic::SourceText;
 use crate::diagnostic::{Diagnostic, Place};
 use crate::graph::{Edit, End, Graph, apply, write};
 use crate::node::{Catalog, Choices, Definition, custom};
-use crate::diagnostic::SourceText;
 use crate::semantic::{Shape, Value};
 use crate::studio::load::{Document, Loader, absolute, relative};
 use crate::studio::weave::{Known, Weaver};

@@ -19,5 +19,5 @@ pub mod swap;
 pub mod trial;
 
 pub use change::{Means, made, wanted_means};
-pub use search::{Figures, Limits, Oracle, Point, Searched, Single, search};
+pub use search::{Figures, Limits, Oracle, Point, Searched, Single, search, weighed};
 pub use swap::{Swap, What, swaps};

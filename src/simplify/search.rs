@@ -7,6 +7,12 @@
 
 use std::collections::BTreeMap;
 
+use crate::cost::Cost;
+
+/// Operations that a texture read counts for where both are one number. Between the few that one costs from a cache and
+/// the hundreds that it costs from memory.
+pub const READ: f64 = 16.0;
+
 /// Errors that differ by less are taken for equal, so that a swap that harms nothing is not infinitely good.
 const LEAST_ERROR: f64 = 1e-5;
 
@@ -17,6 +23,11 @@ pub struct Figures {
     pub cost: f64,
     /// How far it is off; 0 for the full material.
     pub error: f64,
+}
+
+/// A cost as one number.
+pub fn weighed(cost: Cost) -> f64 {
+    f64::from(cost.operations) + READ * f64::from(cost.texture_reads)
 }
 
 /// Makes variants and measures them.
@@ -217,10 +228,12 @@ mod tests {
 
     #[test]
     fn what_is_known_is_not_measured_again_for_nothing() {
-        let many: Vec<(&'static str, f64, f64)> = ('a'..='t').map(|c| {
-            let name: &'static str = Box::leak(format!("{c}x").into_boxed_str());
-            (name, 1.0 + f64::from(u32::from(c) % 7), 0.01)
-        }).collect();
+        let many: Vec<(&'static str, f64, f64)> = ('a'..='t')
+            .map(|c| {
+                let name: &'static str = Box::leak(format!("{c}x").into_boxed_str());
+                (name, 1.0 + f64::from(u32::from(c) % 7), 0.01)
+            })
+            .collect();
         let (found, measured) = run(&many, Limits { error: 9.0, measured: 1000 });
         assert_eq!(found.points.iter().map(|p| p.variant.len()).max(), Some(20));
         // Measuring all after each step would take 210.

@@ -128,20 +128,22 @@ mod tests {
 
     #[test]
     fn what_other_files_lack_is_told() {
-        let mut catalog = Catalog::embedded();
-        let text = |form: &str| {
-            format!("//! label: A\n//! category: math\n//! cheaper: {form} - B.\n\n/// x (number): X.\n/// -> y (number): Y.\nfn a_node(x: f32) -> f32 {{ return x; }}\n")
+        let with = |form: &str| {
+            let text = format!(
+                "//! label: A\n//! category: math\n//! cheaper: {form} - B.\n\n/// x (number): X.\n/// -> y (number): Y.\nfn a_node(x: f32) -> f32 {{ return x; }}\n"
+            );
+            let mut catalog = Catalog::embedded();
+            assert_eq!(catalog.add_file("a_node.wgsl", &text), []);
+            check_kind("a_node", &catalog)
         };
         for (form, expected) in [
             ("kind sinus", "the kind `sinus`, which does not exist"),
             ("kind sine(y = x)", "feeds `y`, which `sine` does not have"),
         ] {
-            assert_eq!(catalog.add_file("a_node.wgsl", &text(form)), []);
-            let found = check_kind("a_node", &catalog);
+            let found = with(form);
             assert!(found.len() == 1 && found[0].message.contains(expected) && found[0].help.is_some(), "{found:?}");
         }
-        assert_eq!(catalog.add_file("a_node.wgsl", &text("kind sine(x = x)")), []);
-        assert_eq!(check_kind("a_node", &catalog), []);
+        assert_eq!(with("kind sine(x = x)"), []);
     }
 
     #[test]

@@ -2,10 +2,12 @@
 //!
 //! Pictures are taken in linear radiance from the same camera with 4 samples a pixel. The error is the root of the mean
 //! square difference of radiance, over the three channels and over all pixels that the material covers wholly, divided by
-//! the mean radiance of the full material there. It says which share of the light is wrong, whatever the exposure. On the
-//! stage the material's object is drawn alone.
+//! the mean radiance of the full material there. It says which share of the light is wrong, whatever the exposure. What is
+//! brighter than 99 of 100 values of the full material counts as just that bright, in both pictures and in the mean: the
+//! highlight of a polished coat is a thousand times as bright as all else on a few pixels, and would be all that counts. On
+//! the stage the material's object is drawn alone.
 //!
-//! The cost is counted: operations of the fragment stage, its lights included, and [`READ`] more for each texture read. It
+//! The cost is counted: operations of the fragment stage, its lights included, and [`READ`](super::search::READ) more for each texture read. It
 //! is the same on every machine. By time it is the time of a frame beside that of the full material, both in turn.
 
 use std::collections::BTreeMap;
@@ -13,7 +15,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 
 use super::change::{Means, made, wanted_means};
 use super::material::{Material, Silent};
-use super::search::{Figures, Oracle};
+use super::search::{Figures, Oracle, weighed};
 use super::swap::swaps;
 use crate::compile::{Options, Output};
 use crate::cost::{Cost, total};
@@ -31,9 +33,6 @@ use crate::studio::weave::{Known, Weaver};
 use crate::studio::{Failure, Focus, Shot};
 use crate::study::statistics::median;
 
-/// Operations that a texture read counts for where both are one number. Between the few that one costs from a cache and
-/// the hundreds that it costs from memory.
-pub const READ: f64 = 16.0;
 /// Rounds of a race of two.
 const DUEL: Rounds = Rounds { warm_up: 1, counted: 5 };
 /// Coverage of a pixel that counts as whole.
@@ -84,6 +83,8 @@ pub struct Trial<'t, 'a> {
     /// Pixels that the material covers wholly.
     mask: Vec<bool>,
     truth: Vec<[f32; 4]>,
+    /// What is brighter counts as this bright.
+    white: f32,
     mean: f64,
     full: Cost,
     means: Means,
@@ -114,6 +115,7 @@ impl<'t, 'a> Trial<'t, 'a> {
             },
             mask: Vec::new(),
             truth: Vec::new(),
+            white: f32::INFINITY,
             mean: 0.0,
             full: Cost::default(),
             means: Means::new(),
@@ -130,6 +132,8 @@ impl<'t, 'a> Trial<'t, 'a> {
         let (depth, loader) = trial.shot(graph, Output::Depth, None)?;
         let covered = trial.picture(&depth, &loader, 4, Output::Depth)?;
         trial.mask = covered.pixels.iter().map(|p| p[3] >= WHOLE).collect();
+        trial.white = trial.brightest();
+        trial.clip_truth();
         trial.mean = trial.mean_of(&trial.truth).iter().sum::<f64>() / 3.0;
         if !trial.mask.contains(&true) {
             let help = "come nearer with --distance, or take a larger --size";
@@ -146,7 +150,7 @@ impl<'t, 'a> Trial<'t, 'a> {
     /// The full material.
     pub fn start(&self) -> (Variant, Figures) {
         let variant = Variant { graph: self.material.graph.clone(), cost: self.full };
-        let cost = if self.by == By::Time { 1.0 } else { number(self.full) };
+        let cost = if self.by == By::Time { 1.0 } else { weighed(self.full) };
         (variant, Figures { cost, error: 0.0 })
     }
 
@@ -195,6 +199,19 @@ impl<'t, 'a> Trial<'t, 'a> {
         Ok(frame)
     }
 
+    /// The value that 99 of 100 of the full material do not exceed.
+    fn brightest(&self) -> f32 {
+        let whole = self.truth.iter().zip(&self.mask).filter(|(_, m)| **m);
+        let mut all: Vec<f32> = whole.flat_map(|(p, _)| [p[0], p[1], p[2]]).collect();
+        all.sort_by(f32::total_cmp);
+        all.get(all.len() * 99 / 100).or(all.last()).copied().unwrap_or(f32::INFINITY)
+    }
+
+    fn clip_truth(&mut self) {
+        let white = self.white;
+        self.truth.iter_mut().for_each(|p| (0..3).for_each(|i| p[i] = p[i].min(white)));
+    }
+
     /// The mean of a picture over the pixels that count.
     fn mean_of(&self, pixels: &[[f32; 4]]) -> [f64; 3] {
         let mut sum = [0.0; 3];
@@ -208,7 +225,8 @@ impl<'t, 'a> Trial<'t, 'a> {
     fn error(&self, pixels: &[[f32; 4]]) -> f64 {
         let mut sum = 0.0;
         for ((seen, truth), _) in pixels.iter().zip(&self.truth).zip(&self.mask).filter(|(_, m)| **m) {
-            sum += (0..3).map(|i| f64::from(seen[i]) - f64::from(truth[i])).map(|d| d * d).sum::<f64>();
+            let seen = |i: usize| if seen[i].is_nan() { f32::NAN } else { seen[i].min(self.white) };
+            sum += (0..3).map(|i| f64::from(seen(i)) - f64::from(truth[i])).map(|d| d * d).sum::<f64>();
         }
         (sum / (3 * self.pixels().max(1)) as f64).sqrt() / self.mean
     }
@@ -278,7 +296,7 @@ impl Oracle for Trial<'_, '_> {
         }
         let cost = cost(&shot);
         let figure = match self.by {
-            By::Operations => number(cost),
+            By::Operations => weighed(cost),
             By::Time => {
                 let laps = self.race(&[&graph], DUEL)?;
                 ratios(&laps).1.first().map_or(f64::NAN, |r| median(r))
@@ -298,11 +316,6 @@ fn at(camera: &Camera, distance: f64) -> Camera {
 /// What all fragment stages of a shot cost. Its other objects are not there.
 fn cost(shot: &Shot) -> Cost {
     shot.shaders.first().map(|s| total(&s.verified)).unwrap_or_default()
-}
-
-/// A cost as one number.
-pub fn number(cost: Cost) -> f64 {
-    f64::from(cost.operations) + READ * f64::from(cost.texture_reads)
 }
 
 /// Times beside those of the first, round by round, of each but the first; and whether they are times on the adapter.
