@@ -16,6 +16,7 @@ use crate::node::Catalog;
 use crate::render::{AdapterSummary, Gpu};
 use crate::simplify::ladder::{Ladder, Rung, Wanted, ladders};
 use crate::simplify::material::Material;
+use crate::simplify::search::READ;
 use crate::simplify::trial::{self, Tools};
 use crate::simplify::{swap, swaps};
 use crate::studio::load::{Loader, is_dash, stems};
@@ -66,7 +67,8 @@ pub(super) fn run(command: &Simplify, context: &Context) -> Outcome {
         context
             .say(&format!("at {at} m no cheaper form stays within the error of {}: raise --max-error", wanted.error));
     }
-    let text = if context.is_json() { listed(&all, &files, &adapter) } else { tables(&all, &files, &adapter) };
+    let text =
+        if context.is_json() { listed(&all, &files, &adapter) } else { tables(&all, &files, command.by, &adapter) };
     output::print(text.as_bytes())?;
     let written: Vec<(&Path, &[u8])> =
         files.iter().flatten().flatten().map(|(p, t)| (p.as_path(), t.as_bytes())).collect();
@@ -96,7 +98,15 @@ fn metres(distance: f64) -> f64 {
     (distance * 100.0).round() / 100.0
 }
 
-fn tables(all: &[Ladder], files: &Files, adapter: &AdapterSummary) -> String {
+/// What the cost of a single swap is.
+fn cost_words(by: By) -> String {
+    match by {
+        By::Operations => format!("operations and {READ} more for each texture read"),
+        By::Time => "the time of a frame beside the full material's".into(),
+    }
+}
+
+fn tables(all: &[Ladder], files: &Files, by: By, adapter: &AdapterSummary) -> String {
     let mut text = String::new();
     for (ladder, files) in all.iter().zip(files) {
         text += &format!("at {} m, over {} pixels\n", metres(ladder.distance), ladder.pixels);
@@ -118,7 +128,13 @@ fn tables(all: &[Ladder], files: &Files, adapter: &AdapterSummary) -> String {
             }
         }
         if !ladder.singles.is_empty() {
-            text += "each swap by itself:\n";
+            text += &format!(
+                "each swap by itself, with {}:\n{:5} {:>8} {:>10}  swap\n",
+                cost_words(by),
+                "",
+                "error",
+                "cost"
+            );
             for single in &ladder.singles {
                 text += &format!(
                     "{:5} {:>8.4} {:>10.4}  {}\n",

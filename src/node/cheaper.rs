@@ -52,7 +52,9 @@ pub(crate) fn cheaper<'a>(
     options: &mut Vec<Piece<'a>>,
 ) -> Option<CheaperSpec> {
     let Some((rule, doc)) = outside(value, " - ").filter(|(_, doc)| !doc.text.is_empty()) else {
-        report.error("ST0102", value.range(), "the cheaper form does not say what it is").help(FORMS);
+        let open = value.text.matches('(').count() > value.text.matches(')').count();
+        let message = if open { "a parenthesis is not closed" } else { "the cheaper form does not say what it is" };
+        report.error("ST0102", value.range(), message).help(FORMS);
         return None;
     };
     let (word, rest) = rule.split_once(" ").unwrap_or((rule, rule.slice(rule.text.len()..rule.text.len())));

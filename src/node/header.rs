@@ -234,7 +234,7 @@ impl<'a> Reader<'a> {
             for choice in choices.iter().filter(|c| !option.choices.contains(c)) {
                 self.report
                     .error("ST0105", spec.range.clone(), format!("`{choice}` is not a choice of option `{name}`"))
-                    .among(choice, option.choices.iter().map(String::as_str));
+                    .help(format!("its choices are {}", option.choices.join(", ")));
             }
         }
     }
