@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 
 use shadetree::compile::{NamedGraph, Options};
 use shadetree::cost::{Cost, total};
+use shadetree::diagnostic::SourceText;
 use shadetree::graph::{Edit, End, Graph, Link, Node, apply};
 use shadetree::node::{Definition, Form};
 use shadetree::semantic::{Kind, Quantity};
@@ -11,7 +12,7 @@ use shadetree::simplify::{Means, Swap, What, made, swaps, wanted_means, weighed}
 use shadetree::verify::verify;
 
 use crate::matrix::alone;
-use crate::support::{catalog, compiled, show};
+use crate::support::{catalog, compiled, graph_text, show};
 
 fn cost(graph: &Graph) -> Cost {
     let named = NamedGraph { name: "alone".into(), graph: graph.clone(), set: BTreeMap::new() };
@@ -118,4 +119,59 @@ fn declarations_are_no_part_of_a_shader() {
     let (plain, found) = shadetree::compile::compile(&[renamed], &own, &Options::default());
     let plain = plain.unwrap_or_else(|| panic!("{}", show(&found))).module.wgsl;
     assert_eq!(plain.replace("fbm3d_bare", "fbm3d"), compiled(&graph, &Options::default()).module.wgsl);
+}
+
+/// The vertex and the fragment stage of a graph.
+fn stages(nodes: &str, links: &str) -> (String, String) {
+    let text = format!("Graph(version: 1, nodes: {{{nodes}}}, links: [{links}], output: \"look\")");
+    let graph = graph_text("rates", &SourceText::new("rates.ron", text));
+    let wgsl = compiled(&[graph], &Options::default()).module.wgsl;
+    let (_, stages) = wgsl.split_once("fn vs_main(").expect("a vertex stage");
+    let (vertex, fragment) = stages.split_once("@fragment").expect("a fragment stage");
+    (vertex.to_owned(), fragment.to_owned())
+}
+
+#[test]
+fn what_the_vertex_stage_can_compute_is_computed_there() {
+    let look = "\"rate\": (kind: \"per_vertex\"), \"look\": (kind: \"unlit\")";
+    let links = "\"n.value -> rate.value\", \"rate.value -> look.color\"";
+    let (vertex, fragment) = stages(&format!("\"n\": (kind: \"perlin3d\"), {look}"), links);
+    assert!(vertex.contains("let n = perlin3d(position_object, parameters.n_scale);"), "{vertex}");
+    assert!(vertex.contains("out.rate_1 = n;") && fragment.contains("in.rate_1"), "{vertex}{fragment}");
+    assert!(!fragment.contains("perlin3d(") && !fragment.contains("position_object"), "{fragment}");
+    // Derivatives, also those of a library, and pictures stay with the fragments.
+    for (node, output) in [
+        ("(kind: \"fbm3d\")", "value"),
+        ("(kind: \"image\", params: {\"image\": \"graphs/textures/tiles.png\"})", "alpha"),
+    ] {
+        let links = links.replace("n.value", &format!("n.{output}"));
+        let (vertex, fragment) = stages(&format!("\"n\": {node}, {look}"), &links);
+        assert!(!vertex.contains("out.rate") && !fragment.contains("in.rate"), "{vertex}{fragment}");
+    }
+    // One behind the other is one, and what is also read elsewhere is computed in both stages.
+    let two =
+        format!("\"n\": (kind: \"perlin3d\"), \"inner\": (kind: \"per_vertex\"), \"sum\": (kind: \"add\"), {look}");
+    let links = "\"n.value -> inner.value\", \"inner.value -> rate.value\", \"rate.value -> sum.a\", \"n.value -> sum.b\", \"sum -> look.color\"";
+    let (vertex, fragment) = stages(&two, links);
+    assert_eq!((vertex.matches("perlin3d(").count(), vertex.matches("out.rate").count()), (1, 1), "{vertex}");
+    assert!(fragment.contains("perlin3d(in.position_object"), "{fragment}");
+}
+
+/// More than may be interpolated is computed where it is read, and nothing is lost.
+#[test]
+fn stages_pass_no_more_than_they_may() {
+    let mut nodes = String::from("\"look\": (kind: \"unlit\"), \"s0\": (kind: \"value\"),");
+    let mut links = String::new();
+    for i in 1..=12 {
+        nodes += &format!(
+            "\"n{i}\": (kind: \"perlin3d\", params: {{\"scale\": {i}}}), \"v{i}\": (kind: \"per_vertex\"), \"s{i}\": (kind: \"add\"),"
+        );
+        links += &format!("\"n{i}.value -> v{i}.value\", \"v{i}.value -> s{i}.a\", \"s{} -> s{i}.b\",", i - 1);
+    }
+    let (vertex, fragment) = stages(&nodes, &format!("{links} \"s12 -> look.color\""));
+    assert_eq!(
+        (vertex.matches("perlin3d(").count(), fragment.matches("perlin3d(").count()),
+        (7, 5),
+        "{vertex}{fragment}"
+    );
 }

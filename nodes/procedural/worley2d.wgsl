@@ -9,6 +9,7 @@
 //! option reach: 1 | 2 = 1 - Lattice cells searched to each side; 2 was exact at 4 million places.
 //! cheaper: option reach = 2 > 1 - The second distance is too long at few places.
 //! cheaper: constant - The mean of the pattern.
+//! cheaper: vertex - Cells at the vertices, interpolated.
 
 const REACH: i32 = 1;
 

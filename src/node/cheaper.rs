@@ -39,10 +39,11 @@ pub enum Form {
     Input(String),
     /// Its outputs are what they come to on average.
     Constant,
+    /// Its outputs are computed for each vertex.
+    Vertex,
 }
 
-const FORMS: &str =
-    "write `option NAME = a > b - TEXT`, `kind NAME(port = formula) - TEXT`, `input NAME - TEXT` or `constant - TEXT`";
+const FORMS: &str = "write `option NAME = a > b - TEXT`, `kind NAME(port = formula) - TEXT`, `input NAME - TEXT`, `constant - TEXT` or `vertex - TEXT`";
 
 /// `RULE - TEXT`. Inputs and options that it names are added to `inputs` and `options`.
 pub(crate) fn cheaper<'a>(
@@ -60,6 +61,7 @@ pub(crate) fn cheaper<'a>(
     let (word, rest) = rule.split_once(" ").unwrap_or((rule, rule.slice(rule.text.len()..rule.text.len())));
     let form = match word.text {
         "constant" if rest.text.is_empty() => Form::Constant,
+        "vertex" if rest.text.is_empty() => Form::Vertex,
         "input" if is_identifier(rest.text) => {
             inputs.push(rest);
             Form::Input(rest.text.to_owned())

@@ -41,6 +41,8 @@ pub struct Header {
     pub uses: Vec<String>,
     /// Whether the body is one `return`, to be written in place.
     pub inline: bool,
+    /// Whether the result is computed for each vertex and interpolated, where the vertex stage can compute it.
+    pub vertex: bool,
     /// Whether the first two inputs may be swapped.
     pub commutative: bool,
     /// Shapes that `T` may take; the first is the file's own. Empty: not generic.

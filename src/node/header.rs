@@ -34,6 +34,7 @@ pub(crate) fn parse(source: &Arc<SourceText>, strict: bool) -> (Header, Vec<Diag
             uses: Vec::new(),
             inline: false,
             commutative: false,
+            vertex: false,
             generic: Vec::new(),
             options: Vec::new(),
             space: None,
@@ -87,6 +88,7 @@ impl<'a> Reader<'a> {
     fn line(&mut self, line: Piece<'a>) {
         match line.text {
             "inline" => return self.flag(line, |h| &mut h.inline),
+            "vertex" => return self.flag(line, |h| &mut h.vertex),
             "commutative" => return self.flag(line, |h| &mut h.commutative),
             _ => {}
         }
@@ -111,7 +113,7 @@ impl<'a> Reader<'a> {
                 }
             }
             [word] if looks_like_key(word.text) && (value.text.is_empty() || value.at > word.range().end + 1) => {
-                let known = KEYS.iter().chain(NAMED_KEYS).copied().chain([CHEAPER, "inline", "commutative"]);
+                let known = KEYS.iter().chain(NAMED_KEYS).copied().chain([CHEAPER, "inline", "commutative", "vertex"]);
                 self.report
                     .error("ST0101", word.range(), format!("`{}` is not a key of node headers", word.text))
                     .suggest(did_you_mean(word.text, known));

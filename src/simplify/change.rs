@@ -26,6 +26,7 @@ pub fn made(graph: &Graph, catalog: &Catalog, swap: &Swap, means: &Means) -> Opt
         What::Become(kind, inputs) => change.become_kind(&mut after, kind, inputs)?,
         What::Pass(input) => change.pass(&mut after, input)?,
         What::Mean => change.mean(&mut after, means)?,
+        What::Vertex => change.vertex(&mut after)?,
     }
     prune(&mut after, &sinks);
     Some(after)
@@ -202,6 +203,37 @@ impl Change<'_> {
         let Some(Default::Source(other)) = &target.input(to.port.as_deref()?)?.default else { return None };
         let set = graph.nodes.get(&to.node)?.params.contains_key(to.port.as_deref()?);
         (own == other && !set).then_some(())
+    }
+
+    /// Puts a node that is computed for each vertex behind every output. None where one stands there.
+    fn vertex(&self, graph: &mut Graph) -> Option<()> {
+        let rate = self.catalog.files().find(|file| file.header().is_ok_and(|h| h.vertex))?;
+        let definition = rate.definition(&Choices::new()).ok()?;
+        let (input, output) = (definition.inputs().next()?.name.clone(), definition.main.outputs.first()?.name.clone());
+        let is_rate = |end: &End| graph.nodes.get(&end.node).is_some_and(|n| n.kind == rate.kind());
+        let mut feeds: BTreeMap<&End, Vec<&End>> = BTreeMap::new();
+        for link in self.links(graph).1 {
+            if is_rate(&link.to) {
+                return None;
+            }
+            self.definition.output(link.from.port.as_deref()?).filter(|p| matches!(p.ty.shape, Shape::F32(_)))?;
+            feeds.entry(&link.from).or_default().push(&link.to);
+        }
+        let mut edits = Vec::new();
+        for (index, (from, targets)) in feeds.iter().enumerate() {
+            let number = if index > 0 { format!(" {}", index + 1) } else { String::new() };
+            let name = free_name(graph, &format!("{} per vertex{number}", self.node));
+            let node = Node { kind: rate.kind().to_owned(), ..Node::default() };
+            edits.push(Edit::AddNode(name.clone(), Box::new(node)));
+            let mut link = |from: End, to: End| edits.push(Edit::Link(Box::new(Link::new(from, to))));
+            link((*from).clone(), End::port(name.as_str(), input.as_str()));
+            targets.iter().for_each(|to| link(End::port(name.as_str(), output.as_str()), (*to).clone()));
+            edits.extend(targets.iter().map(|to| Edit::Unlink((*from).clone(), (*to).clone())));
+        }
+        if edits.is_empty() {
+            return None;
+        }
+        apply(graph, Edit::Batch(edits)).ok().map(drop)
     }
 
     fn mean(&self, graph: &mut Graph, means: &Means) -> Option<()> {

@@ -28,6 +28,8 @@ pub enum What {
     Pass(String),
     /// Its outputs are what they come to on average.
     Mean,
+    /// Its outputs are computed for each vertex.
+    Vertex,
 }
 
 impl Swap {
@@ -38,6 +40,7 @@ impl Swap {
             What::Become(kind, _) => format!("{}: {kind}", self.node),
             What::Pass(input) => format!("{}: what feeds {input}", self.node),
             What::Mean => format!("{}: its mean", self.node),
+            What::Vertex => format!("{}: for each vertex", self.node),
         }
     }
 }
@@ -61,6 +64,7 @@ pub fn swaps(graph: &Graph, catalog: &Catalog) -> Vec<Swap> {
                 Form::Kind { kind, inputs } => add(What::Become(kind.clone(), inputs.clone())),
                 Form::Input(input) => add(What::Pass(input.clone())),
                 Form::Constant => add(What::Mean),
+                Form::Vertex => add(What::Vertex),
             }
         }
     }
