@@ -3,12 +3,16 @@
 //! An operation is a unary or binary operator, a selection, a derivative, a test, a built-in function of numbers or a
 //! conversion, whatever the width of what it works on. Reading variables, and taking vectors apart or putting them together,
 //! is free. Samples, gathers and loads of textures are counted apart. A function that is called counts for the node whose
-//! text calls it, each time that it is called, with all that it calls. Loops count once, and both sides of a branch count:
-//! these are figures to compare nodes by, not times.
+//! text calls it, each time that it is called, with all that it calls. A loop counts as often as it turns where its text says
+//! how often that is, else once, and both sides of a branch count: these are figures to compare nodes by, not times.
+
+mod turns;
 
 use std::collections::BTreeMap;
 
-use naga::{Block, Expression, Function, Handle, Span, Statement};
+use naga::{Expression, Function, Handle, Span, Statement};
+
+use turns::turns;
 
 use crate::module::Module;
 use crate::verify::Verified;
@@ -30,6 +34,26 @@ impl Cost {
         self.texture_reads = self.texture_reads.saturating_add(other.texture_reads);
         self.vertex |= other.vertex;
     }
+
+    fn times(self, turns: u32) -> Self {
+        Self {
+            operations: self.operations.saturating_mul(turns),
+            texture_reads: self.texture_reads.saturating_mul(turns),
+            ..self
+        }
+    }
+}
+
+/// What all fragment stages of a shader cost, whosever it is.
+pub fn total(verified: &Verified) -> Cost {
+    let module = &verified.module;
+    let mut counter =
+        Counter { owners: Vec::new(), module, known: BTreeMap::new(), nodes: BTreeMap::new(), rest: Cost::default() };
+    let mut sum = Cost::default();
+    for entry in module.entry_points.iter().filter(|e| e.stage == naga::ShaderStage::Fragment) {
+        sum.add(counter.total_of(&entry.function));
+    }
+    sum
 }
 
 /// What each node costs, by its name in the source map. What the shader does besides is no node's.
@@ -42,13 +66,13 @@ pub fn cost(module: &Module, verified: &Verified) -> BTreeMap<String, Cost> {
 fn shares<'a>(module: &'a Module, verified: &Verified) -> (BTreeMap<&'a str, Cost>, Cost) {
     let mut counter = Counter {
         owners: owners(module),
-        functions: &verified.module.functions,
+        module: &verified.module,
         known: BTreeMap::new(),
         nodes: BTreeMap::new(),
         rest: Cost::default(),
     };
     for entry in &verified.module.entry_points {
-        counter.share(&entry.function, entry.stage == naga::ShaderStage::Vertex);
+        counter.share(&entry.function, entry.stage == naga::ShaderStage::Vertex, 1);
     }
     (counter.nodes, counter.rest)
 }
@@ -75,7 +99,7 @@ fn owners(module: &Module) -> Vec<(usize, Option<&str>)> {
 
 struct Counter<'a, 'b> {
     owners: Vec<(usize, Option<&'a str>)>,
-    functions: &'b naga::Arena<Function>,
+    module: &'b naga::Module,
     /// What functions cost with all that they call.
     known: BTreeMap<Handle<Function>, Cost>,
     nodes: BTreeMap<&'a str, Cost>,
@@ -90,22 +114,23 @@ impl<'a> Counter<'a, '_> {
     }
 
     /// Shares out what a function does among the nodes in whose text it stands.
-    fn share(&mut self, function: &Function, vertex: bool) {
-        for (handle, expression) in function.expressions.iter() {
-            let own = Cost { vertex, ..weight(expression) };
-            if own.operations + own.texture_reads > 0 {
-                self.give(self.owner(function.expressions.get_span(handle)), own);
-            }
-        }
-        let functions = self.functions;
-        for (callee, span) in calls(&function.body) {
-            match self.owner(span) {
-                Some(node) => {
-                    let total = Cost { vertex, ..self.total(callee) };
-                    self.give(Some(node), total);
+    fn share(&mut self, function: &Function, vertex: bool, times: u32) {
+        let module = self.module;
+        for (done, span, turns) in work(module, function) {
+            let turns = turns.saturating_mul(times);
+            match done {
+                Work::Own(own) => {
+                    let cost = Cost { vertex, ..own }.times(turns);
+                    self.give(self.owner(span), cost);
                 }
-                // A part of the stage that is a function of its own, or what no node asked for.
-                None => self.share(&functions[callee], vertex),
+                Work::Call(callee) => match self.owner(span) {
+                    Some(node) => {
+                        let total = Cost { vertex, ..self.total(callee) }.times(turns);
+                        self.give(Some(node), total);
+                    }
+                    // A part of the stage that is a function of its own, or what no node asked for.
+                    None => self.share(&module.functions[callee], vertex, turns),
+                },
             }
         }
     }
@@ -122,19 +147,21 @@ impl<'a> Counter<'a, '_> {
         if let Some(known) = self.known.get(&handle) {
             return *known;
         }
-        let functions = self.functions;
-        let total = self.total_of(&functions[handle]);
+        let module = self.module;
+        let total = self.total_of(&module.functions[handle]);
         self.known.insert(handle, total);
         total
     }
 
     fn total_of(&mut self, function: &Function) -> Cost {
         let mut total = Cost::default();
-        function.expressions.iter().for_each(|(_, e)| total.add(weight(e)));
         // No function calls itself, directly or not, so that this ends.
-        for (callee, _) in calls(&function.body) {
-            let callee = self.total(callee);
-            total.add(callee);
+        for (done, _, turns) in work(self.module, function) {
+            let own = match done {
+                Work::Own(own) => own,
+                Work::Call(callee) => self.total(callee),
+            };
+            total.add(own.times(turns));
         }
         total
     }
@@ -155,20 +182,42 @@ fn weight(expression: &Expression) -> Cost {
     }
 }
 
-/// The functions that a block calls, each as often as it is written, with the places.
-fn calls(block: &Block) -> Vec<(Handle<Function>, Span)> {
+/// Something that a function does.
+enum Work {
+    /// An expression of its own.
+    Own(Cost),
+    /// A call.
+    Call(Handle<Function>),
+}
+
+/// What a function does, each with its place and how often, for all that its loops tell.
+fn work(module: &naga::Module, function: &Function) -> Vec<(Work, Span, u32)> {
     let mut found = Vec::new();
-    let mut open = vec![block];
-    while let Some(block) = open.pop() {
+    let mut open = vec![(&function.body, 1u32)];
+    while let Some((block, times)) = open.pop() {
+        let mut before: Vec<&Statement> = Vec::new();
         for (statement, span) in block.span_iter() {
             match statement {
-                Statement::Call { function, .. } => found.push((*function, *span)),
-                Statement::Block(inner) => open.push(inner),
-                Statement::If { accept, reject, .. } => open.extend([accept, reject]),
-                Statement::Switch { cases, .. } => open.extend(cases.iter().map(|c| &c.body)),
-                Statement::Loop { body, continuing, .. } => open.extend([body, continuing]),
+                // What is not emitted is a name or a number, and free.
+                Statement::Emit(range) => {
+                    for handle in range.clone() {
+                        let own = weight(&function.expressions[handle]);
+                        if own.operations + own.texture_reads > 0 {
+                            found.push((Work::Own(own), function.expressions.get_span(handle), times));
+                        }
+                    }
+                }
+                Statement::Call { function, .. } => found.push((Work::Call(*function), *span, times)),
+                Statement::Block(inner) => open.push((inner, times)),
+                Statement::If { accept, reject, .. } => open.extend([(accept, times), (reject, times)]),
+                Statement::Switch { cases, .. } => open.extend(cases.iter().map(|c| (&c.body, times))),
+                Statement::Loop { body, continuing, .. } => {
+                    let turns = times.saturating_mul(turns(module, function, &before, (body, continuing)));
+                    open.extend([(body, turns), (continuing, turns)]);
+                }
                 _ => {}
             }
+            before.push(statement);
         }
     }
     found
@@ -198,7 +247,7 @@ mod tests {
         nodes.values().for_each(|c| sum.add(*c));
         let mut counter = Counter {
             owners: Vec::new(),
-            functions: &verified.module.functions,
+            module: &verified.module,
             known: BTreeMap::new(),
             nodes: BTreeMap::new(),
             rest: Cost::default(),

@@ -236,6 +236,26 @@ of it by name, and exactly one shadow node in that light's graph.",
         "`--reference` must know where the light is: from the inputs that its node's `space:` line names, as values, not\nlinks. `--reference pcf` also needs a shadow on it, whose options `size`, `width`, `weights` and `taps` say what the\nfilter is; `--kernel WIDTH` says the width where `width` is no number.",
     ),
     (
+        "ST0750",
+        "There is nothing to simplify in these graphs.",
+        "`simplify` makes cheaper forms of one material: of the graphs that it is given, exactly one has surface nodes, and\nthe others are lights.",
+    ),
+    (
+        "ST0751",
+        "The material that is to be simplified is not seen.",
+        "Errors are shares of the light that the material sends to the eye, over the pixels that it covers wholly. Come\nnearer with `--distance`, take a larger `--size`, or give the material light.",
+    ),
+    (
+        "ST0752",
+        "A node file declares a cheaper form that cannot be.",
+        "A line `//! cheaper: kind NAME(port = formula) - TEXT` names a kind of node, or an input of it, that is not there.\nThe form is passed over.",
+    ),
+    (
+        "ST0753",
+        "No node of a material has a cheaper form.",
+        "Node files declare their cheaper forms in lines `//! cheaper: ...`. The ladder of this material is the material\nitself.",
+    ),
+    (
         "ST0900",
         "naga rejects the WGSL that was woven.",
         "If the place is a node of your own (a `custom` node, or a file in --nodes DIR), its WGSL is at fault: the notes\nshow the line. Otherwise this is a fault in shadetree; please report it with the graph.",

@@ -24,6 +24,7 @@ pub mod render;
 pub mod studio;
 pub mod study;
 pub mod chart;
+pub mod simplify;
 #[cfg(feature = "render")]
 pub mod preview;
 #[cfg(feature = "gui")]

@@ -13,6 +13,8 @@ mod reference;
 #[cfg(feature = "render")]
 mod render;
 #[cfg(feature = "render")]
+mod simplify;
+#[cfg(feature = "render")]
 mod study;
 #[cfg(unix)]
 mod watch;

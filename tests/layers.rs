@@ -47,6 +47,23 @@ const ALLOWED: &[(&str, &[&str])] = &[
     ),
     ("study", &["diagnostic", "ron", "graph", "node", "weave", "compile", "scene", "reference", "render", "studio"]),
     ("chart", &["reference", "study"]),
+    (
+        "simplify",
+        &[
+            "cost",
+            "diagnostic",
+            "semantic",
+            "graph",
+            "node",
+            "weave",
+            "compile",
+            "scene",
+            "render",
+            "view",
+            "studio",
+            "study",
+        ],
+    ),
     ("preview", &["cost", "diagnostic", "node", "compile", "scene", "reference", "render", "studio"]),
     (
         "gui",

@@ -16,6 +16,7 @@ mod made_study;
 mod matrix;
 #[cfg(feature = "render")]
 mod minimal;
+mod simplify;
 #[cfg(feature = "render")]
 mod stability;
 #[cfg(feature = "render")]

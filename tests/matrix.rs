@@ -41,7 +41,7 @@ fn feeder(port: &Port, shape: &Shape) -> String {
 }
 
 /// A graph around one node that feeds all of its required inputs.
-fn alone(definition: &Definition, options: &BTreeMap<String, String>, width: Option<u8>) -> NamedGraph {
+pub(crate) fn alone(definition: &Definition, options: &BTreeMap<String, String>, width: Option<u8>) -> NamedGraph {
     let mut nodes = String::new();
     let mut links = String::new();
     let mut params = String::new();

@@ -3,6 +3,7 @@
 //! synonyms: gradient, colorramp, two stops, color map, lookup, tint mask
 //! Colours a number: one colour below, one above, and a course between them.
 //! option interpolation: linear | smooth | constant = linear - Straight, smoothstep, or a jump at the second stop.
+//! cheaper: constant - The mean of the colours.
 
 /// factor (number): Where on the ramp.
 /// low (color; = (0, 0, 0); srgb): The colour at and before the first stop.

@@ -3,6 +3,7 @@
 //! synonyms: gradient, colorramp, three stops, color map, lookup, heat map
 //! Colours a number by a ramp of three stops.
 //! option interpolation: linear | smooth | constant = linear - Straight, smoothstep, or a jump at each stop.
+//! cheaper: constant - The mean of the colours.
 
 /// factor (number): Where on the ramp.
 /// low (color; = (0.02, 0.05, 0.3); srgb): The colour at and before the first stop.

@@ -5,6 +5,7 @@
 //! Both sides of the surface count alike. The curve of a dielectric is the exact mean over both polarisations, for a
 //! body that absorbs nothing (in the form of Cook and Torrance 1982); Schlick's is the fifth-power fit to it (1994).
 //! option curve: facing | dielectric | schlick = facing - A plain bendable falloff, or the share of light that a clear body reflects.
+//! cheaper: vertex - At the vertices, interpolated.
 
 /// normal (normal world unit; = @normal_world): The normal that is looked at.
 /// to_camera (direction world unit; = @to_camera): Towards the eye.

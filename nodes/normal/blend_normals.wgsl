@@ -5,6 +5,7 @@
 //! Puts the relief of a detail normal on top of that of a base normal. Both are normals in the world, bent away from
 //! the same smooth surface (methods compared by Barre-Brisebois and Hill 2012, "Blending in Detail").
 //! option method: reoriented | whiteout | udn = reoriented - Turn the detail with the base, or add slopes.
+//! cheaper: input base - The coarse relief alone.
 
 /// base (normal world unit; = @normal_world): Normal with the coarse relief.
 /// detail (normal world unit; = @normal_world): Normal with the fine relief.

@@ -4,6 +4,7 @@
 //! use: safe_normal
 //! Bends the normal as if the surface were raised by a height, without needing texture coordinates: the surface
 //! gradient from screen-space derivatives (Mikkelsen 2010, "Bump Mapping Unparametrized Surfaces on the GPU").
+//! cheaper: input normal - The smooth surface.
 
 /// height (scalar): Height of the surface; any pattern or image. 1 stands for `amplitude` metres.
 /// amplitude (distance; = 0.02; in m): Metres that a height of 1 stands for.

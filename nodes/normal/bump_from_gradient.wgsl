@@ -4,6 +4,7 @@
 //! use: safe_normal
 //! Bends the normal by a height whose gradient is known, which is sharper than differences between pixels
 //! (Mikkelsen 2020, "Surface Gradient-Based Bump Mapping Framework").
+//! cheaper: input normal - The smooth surface.
 
 /// gradient (vector world): Change of the height per metre along each axis of the world, in metres.
 /// strength (scalar; = 1; -4..4): Multiplies the gradient; negative turns bumps into dents.

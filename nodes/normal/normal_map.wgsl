@@ -4,6 +4,7 @@
 //! use: safe_normal
 //! Turns the colour of a tangent-space normal map into a normal in the world. The image must be read as linear.
 //! option green: up | down = up - Where the map's second channel points: up (OpenGL, glTF) or down (DirectX).
+//! cheaper: input normal - The smooth surface.
 
 /// color (color tangent signed01; = (0.5, 0.5, 1)): Colour of the map: 0..1 stands for -1..1.
 /// strength (scalar; = 1; 0..4): How strongly the normal is bent: 0 not at all, 1 as the map says.

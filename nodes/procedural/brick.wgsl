@@ -4,6 +4,7 @@
 //! use: box_filter, cellular
 //! A wall of bricks in shifted rows on texture coordinates, with mortar of equal width all around; every brick has a
 //! shade of its own. Averaged over each pixel.
+//! cheaper: constant - The mean of the pattern.
 
 /// texcoord (texcoord; = @texcoord): Where to look the wall up.
 /// columns (scalar; = 4): Bricks per unit of the first texture coordinate.

@@ -4,6 +4,7 @@
 //! use: box_filter
 //! Squares of two colours in turn on texture coordinates, averaged exactly over each pixel, so that distant squares
 //! melt into their mean instead of flickering.
+//! cheaper: constant - The mean of the pattern.
 
 /// texcoord (texcoord; = @texcoord): Where to look the pattern up.
 /// scale (scalar; = 8): Squares per unit of the texture coordinate.

@@ -3,6 +3,7 @@
 //! synonyms: checkerboard, cubes, solid checker
 //! use: box_filter
 //! Cubes of two colours in turn throughout space, fixed to the object and averaged over each pixel.
+//! cheaper: constant - The mean of the pattern.
 
 /// position (point object; = @position_object): Where to look the pattern up.
 /// scale (scalar; = 4): Cubes per metre.

@@ -3,6 +3,7 @@
 //! synonyms: distort, gradient noise warp, turbulence, swirl
 //! use: perlin
 //! Shifts points of texture coordinates by Perlin noise, so that a pattern looked up there gets wavy.
+//! cheaper: input texcoord - The pattern is not disturbed.
 
 /// texcoord (texcoord; = @texcoord): Point to shift.
 /// scale (scalar; = 4): Features of the noise per unit of the texture coordinate.

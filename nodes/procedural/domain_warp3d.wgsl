@@ -3,6 +3,7 @@
 //! synonyms: distort, gradient noise warp, turbulence, swirl
 //! use: perlin
 //! Shifts points of space by Perlin noise, so that a pattern looked up there gets wavy.
+//! cheaper: input position - The pattern is not disturbed.
 
 /// position (point object; = @position_object): Point to shift.
 /// scale (scalar; = 2): Features of the noise per metre.

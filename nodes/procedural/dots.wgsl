@@ -4,6 +4,7 @@
 //! use: box_filter, cellular
 //! A round dot in every cell of a square grid on texture coordinates, with edges one pixel soft; where cells get
 //! smaller than a pixel the pattern becomes the share that the dots cover.
+//! cheaper: constant - The mean of the pattern.
 
 /// texcoord (texcoord; = @texcoord): Where to look the pattern up.
 /// scale (scalar; = 8): Dots per unit of the texture coordinate.

@@ -7,6 +7,8 @@
 //! option basis: perlin | value | simplex = perlin - The noise that is summed.
 //! option octaves: 1 | 2 | 3 | 4 | 5 | 6 | 7 | 8 = 5 - How many sizes of detail.
 //! option range: unit | signed = unit - Values from 0 to 1 around 0.5, or from -1 to 1 around 0.
+//! cheaper: option octaves = 8 > 7 > 6 > 5 > 4 > 3 > 2 > 1 - Fewer sizes of detail.
+//! cheaper: constant - The mean of the pattern.
 
 const OCTAVES: i32 = 5;
 

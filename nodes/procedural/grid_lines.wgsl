@@ -4,6 +4,7 @@
 //! use: box_filter
 //! A square grid of lines on texture coordinates, averaged exactly over each pixel. Lines lie around whole numbers of
 //! the scaled coordinate.
+//! cheaper: constant - The mean of the pattern.
 
 /// texcoord (texcoord; = @texcoord): Where to look the grid up.
 /// scale (scalar; = 10): Cells per unit of the texture coordinate.

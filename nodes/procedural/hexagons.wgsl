@@ -4,6 +4,7 @@
 //! use: box_filter, cellular
 //! Regular hexagons that fill the texture plane, with gaps between them; edges are one pixel soft, and where hexagons
 //! get smaller than a pixel the pattern becomes the share that they cover.
+//! cheaper: constant - The mean of the pattern.
 
 /// texcoord (texcoord; = @texcoord): Where to look the pattern up.
 /// scale (scalar; = 8): Hexagons per unit of the first texture coordinate.

@@ -4,6 +4,9 @@
 //! use: perlin
 //! Smooth random bumps of one size on a surface's texture coordinates: Perlin's improved noise (Perlin 2002).
 //! option range: unit | signed = unit - Values from 0 to 1 around 0.5, or from -1 to 1 around 0.
+//! cheaper: kind value_noise2d - Noise of values rather than of slopes.
+//! cheaper: constant - The mean of the pattern.
+//! cheaper: vertex - Noise at the vertices, interpolated.
 
 /// texcoord (texcoord; = @texcoord): Where to look the noise up.
 /// scale (scalar; = 8): Features per unit of the texture coordinate.

@@ -4,6 +4,9 @@
 //! use: perlin
 //! Smooth random bumps of one size throughout space, fixed to the object: Perlin's improved noise (Perlin 2002).
 //! option range: unit | signed = unit - Values from 0 to 1 around 0.5, or from -1 to 1 around 0.
+//! cheaper: kind value_noise3d - Noise of values rather than of slopes.
+//! cheaper: constant - The mean of the pattern.
+//! cheaper: vertex - Noise at the vertices, interpolated.
 
 /// position (point object; = @position_object): Where to look the noise up.
 /// scale (scalar; = 4): Features per metre.

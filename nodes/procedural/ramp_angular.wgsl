@@ -4,6 +4,7 @@
 //! use: turns
 //! A blend from one colour to another once around a point on the texture plane.
 //! option form: sweep | mirrored = sweep - Jump back after a whole turn, or return the way it came after half a turn.
+//! cheaper: constant - The mean of the pattern.
 
 /// texcoord (texcoord; = @texcoord): Where to look the ramp up.
 /// center (texcoord; = (0.5, 0.5)): The point to turn around.

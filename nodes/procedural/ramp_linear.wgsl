@@ -5,6 +5,7 @@
 //! A blend from one colour to another along one texture coordinate.
 //! option axis: u | v = u - The texture coordinate that is followed.
 //! option falloff: linear | smooth = linear - A straight blend, or one that starts and ends flat.
+//! cheaper: constant - The mean of the pattern.
 
 /// texcoord (texcoord; = @texcoord): Where to look the ramp up.
 /// start (scalar; = 0): Coordinate of the first colour.

@@ -4,6 +4,7 @@
 //! use: ramps
 //! A blend from one colour in the middle of a circle on the texture plane to another on its rim and beyond.
 //! option falloff: linear | smooth = linear - A straight blend, or one that starts and ends flat.
+//! cheaper: constant - The mean of the pattern.
 
 /// texcoord (texcoord; = @texcoord): Where to look the ramp up.
 /// center (texcoord; = (0.5, 0.5)): Middle of the circle.

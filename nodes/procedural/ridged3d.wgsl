@@ -5,6 +5,8 @@
 //! Sharp ridges that gather detail: octaves of (1 - |Perlin noise|)^2, each weighted by the one before (Musgrave 1994,
 //! ridged multifractal), divided by the sum of their amplitudes. Octaves too fine for a pixel fade to their average.
 //! option octaves: 1 | 2 | 3 | 4 | 5 | 6 | 7 | 8 = 5 - How many sizes of detail.
+//! cheaper: option octaves = 8 > 7 > 6 > 5 > 4 > 3 > 2 > 1 - Fewer sizes of detail.
+//! cheaper: constant - The mean of the pattern.
 
 const OCTAVES: i32 = 5;
 

@@ -5,6 +5,9 @@
 //! Smooth random bumps on a tetrahedral lattice, with fewer directional artefacts than Perlin noise
 //! (Perlin 2001, Gustavson 2005).
 //! option range: unit | signed = unit - Values from 0 to 1 around 0.5, or from -1 to 1 around 0.
+//! cheaper: kind value_noise3d - Noise of values rather than of slopes.
+//! cheaper: constant - The mean of the pattern.
+//! cheaper: vertex - Noise at the vertices, interpolated.
 
 /// position (point object; = @position_object): Where to look the noise up.
 /// scale (scalar; = 4): Features per metre.

@@ -3,6 +3,7 @@
 //! synonyms: bars, lines, zebra
 //! use: box_filter
 //! Straight stripes of two colours on texture coordinates, averaged exactly over each pixel.
+//! cheaper: constant - The mean of the pattern.
 
 /// texcoord (texcoord; = @texcoord): Where to look the pattern up.
 /// scale (scalar; = 8): Pairs of stripes per unit of the texture coordinate.

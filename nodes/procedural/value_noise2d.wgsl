@@ -5,6 +5,8 @@
 //! Blotches on texture coordinates: a random number at each lattice point, blended smoothly;
 //! blockier and stronger than Perlin noise.
 //! option range: unit | signed = unit - Values from 0 to 1 around 0.5, or from -1 to 1 around 0.
+//! cheaper: constant - The mean of the pattern.
+//! cheaper: vertex - Noise at the vertices, interpolated.
 
 /// texcoord (texcoord; = @texcoord): Where to look the noise up.
 /// scale (scalar; = 8): Features per unit of the texture coordinate.

@@ -4,6 +4,7 @@
 //! use: box_filter, cellular
 //! Borders of the cells around scattered points on texture coordinates: the exact distance to the nearest border, which
 //! is the distance to the bisector between the nearest point and each of its neighbours.
+//! cheaper: constant - The mean of the pattern.
 
 /// texcoord (texcoord; = @texcoord): Where to look the cells up.
 /// scale (scalar; = 6): Cells per unit of the texture coordinate.

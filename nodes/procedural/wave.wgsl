@@ -4,6 +4,7 @@
 //! use: box_filter
 //! Parallel waves throughout space, fixed to the object and averaged over each pixel.
 //! option shape: sine | triangle | saw | square = sine - The profile of a wave.
+//! cheaper: constant - The mean of the pattern.
 
 /// position (point object; = @position_object): Where to look the wave up.
 /// direction (vector; = (1, 0, 0)): Along which it repeats; its length does not matter.

@@ -4,6 +4,7 @@
 //! use: hash, box_filter
 //! A random number and a random colour for each cube of a lattice throughout space, fixed to the object; neighbouring
 //! cubes have nothing to do with each other. Cubes too small to be seen fade to the mean.
+//! cheaper: constant - The mean of the pattern.
 
 /// position (point object; = @position_object): Where to look the noise up.
 /// scale (scalar; = 10): Cubes per metre.

@@ -4,6 +4,7 @@
 //! use: box_filter, fractal, perlin
 //! Annual rings of a tree around an axis: early wood darkens slowly into late wood and then starts again. Noise makes
 //! the rings uneven, and fine fibres run along the trunk (after the wood of Peachey 1985 and Perlin 1985).
+//! cheaper: constant - The mean of the pattern.
 
 /// position (point object; = @position_object): Where to look the wood up.
 /// center (point object; = (0, 0, 0.3)): A point on the axis of the trunk.

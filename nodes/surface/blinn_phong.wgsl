@@ -3,6 +3,7 @@
 //! synonyms: plastic, shiny, specular, phong, classic
 //! use: microfacet, environment
 //! Matte reflection under a highlight round the half vector (Blinn 1977), scaled so that a sharper highlight is brighter, not dimmer.
+//! cheaper: kind lambert - The matte part alone.
 
 /// irradiance (color irradiance): Light that arrives, measured facing the light.
 /// to_light (direction world unit): Towards the light.

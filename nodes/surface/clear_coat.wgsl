@@ -3,6 +3,7 @@
 //! synonyms: varnish, lacquer, car paint, polish, glaze, wet
 //! use: microfacet, environment
 //! A clear, colourless coat over another surface: its own highlight, and Fresnel losses for the light that enters to the base and leaves it again.
+//! cheaper: input base - The surface without its coat.
 
 /// base (color radiance): The surface under the coat.
 /// irradiance (color irradiance): Light that arrives, measured facing the light.

@@ -3,6 +3,8 @@
 //! synonyms: pbr, ggx, physically based, metal, plastic, principled, cook-torrance
 //! use: microfacet, environment
 //! Metals and plastics: GGX facets (Walter et al. 2007) with height-correlated masking (Heitz 2014) and Schlick's Fresnel over a matte base. Light that bounces between facets is lost: 69% at most, for a white metal of roughness 1 seen straight on.
+//! cheaper: kind blinn_phong(albedo = base_color * (1 - metallic), specular = ((ior - 1) / (ior + 1))^2 * (1 - metallic) + base_color * metallic, shininess = 2 / roughness^4 - 2) - A highlight of the same width without masking.
+//! cheaper: kind lambert(albedo = base_color) - The matte part alone, as bright as the whole.
 
 /// irradiance (color irradiance): Light that arrives, measured facing the light.
 /// to_light (direction world unit): Towards the light.

@@ -3,6 +3,8 @@
 //! synonyms: blend, lerp, mask, layer
 //! inline
 //! Two surfaces side by side below what the eye resolves: a share of the one and the rest of the other.
+//! cheaper: input first - The first surface alone.
+//! cheaper: input second - The second surface alone.
 
 /// first (color radiance): The surface shown at 0.
 /// second (color radiance): The surface shown at 1.

@@ -4,6 +4,8 @@
 //! use: microfacet, environment
 //! Matte reflection from a surface of rough facets: flatter than Lambert, brighter towards the light (Oren and Nayar 1994).
 //! option order: qualitative | full = qualitative - Which model of the paper: equation 30, or equations 27 to 29 with light that bounces between facets.
+//! cheaper: option order = full > qualitative - The simpler model of the paper.
+//! cheaper: kind lambert - Facets laid flat.
 
 /// irradiance (color irradiance): Light that arrives, measured facing the light.
 /// to_light (direction world unit): Towards the light.

@@ -3,6 +3,7 @@
 //! synonyms: cloth, fabric, sheen, fuzz, felt
 //! use: microfacet, environment
 //! Cloth with fibres that stand up and shine along the outline: the sheen distribution of Estevez and Kulla 2017 with the visibility of Neubelt and Pettineo 2013, over a matte base.
+//! cheaper: kind lambert - Cloth without its shine.
 
 /// irradiance (color irradiance): Light that arrives, measured facing the light.
 /// to_light (direction world unit): Towards the light.

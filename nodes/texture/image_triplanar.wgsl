@@ -11,6 +11,7 @@
 //! option anisotropy: 1 | 4 | 16 = 1 - Most samples along a slanted pixel; used with trilinear filtering.
 //! sampler image_sampler: filter=$filter address=$address anisotropy=$anisotropy
 //! texture image: encoding=$color_space
+//! cheaper: constant - The mean of the picture.
 
 /// image (texture): Path of a PNG, JPEG or HDR file.
 /// image_sampler (sampler; hidden): Made from the options.

@@ -20,6 +20,8 @@ mod fmt;
 mod folder;
 mod generate;
 mod merge;
+#[cfg(feature = "render")]
+mod ladder;
 mod new;
 mod nodes;
 mod output;
@@ -28,6 +30,7 @@ mod picture;
 mod render;
 mod results;
 mod study;
+mod simplify;
 #[cfg(feature = "render")]
 mod truth;
 mod watch;
@@ -87,6 +90,7 @@ enum Command {
     Chart(chart::DrawChart),
     Figure(figure::DrawFigure),
     Study(study::RunStudy),
+    Simplify(simplify::Simplify),
     Nodes(nodes::Nodes),
     Fmt(fmt::Fmt),
     New(new::New),
@@ -107,6 +111,7 @@ impl Command {
             Self::Chart(c) => c.run(context),
             Self::Figure(c) => c.run(context),
             Self::Study(c) => c.run(context),
+            Self::Simplify(c) => c.run(context),
             Self::Nodes(c) => c.run(context),
             Self::Fmt(c) => c.run(context),
             Self::New(c) => c.run(context),

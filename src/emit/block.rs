@@ -1,6 +1,7 @@
 //! The parameter block: which values are in it, in which order, and how the text reads them.
 
 use std::cmp::Ordering;
+use std::collections::BTreeSet;
 use std::sync::Arc;
 
 use super::names::Names;
@@ -44,7 +45,7 @@ pub(crate) fn larger_than(most: u32, program: &Program) -> Option<(usize, u32)> 
     if program.parameters.len().saturating_mul(64) <= most as usize {
         return None;
     }
-    let order = order(program, &super::reach(program, program.root?), &Plan::default());
+    let order = order(program, &super::reach(program, &[program.root?], &BTreeSet::new()), &Plan::default());
     (order.bytes > most).then_some((order.members.len(), order.bytes))
 }
 

@@ -1,4 +1,4 @@
-//! The fragment stage: one line per node, conversions in place.
+//! The fragment stage, and what the vertex stage computes for it: one line per node, conversions in place.
 
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -7,21 +7,31 @@ use super::Reached;
 use super::functions::Functions;
 use super::names::Names;
 use super::parts::{Division, divide};
+use super::rates::Stages;
 use super::stages::varying;
 use super::text::{Part, Text, is_atomic, parts};
-use crate::program::{Expression, Id, Op, Program, Resource};
+use crate::program::{Expression, Id, Op, Program, Resource, Varying};
 use crate::semantic::Shape;
 
 /// Calls longer than this take a line for each argument.
 const LINE: usize = 92;
 
+/// What both stages name alike.
+pub(crate) struct Tables<'a> {
+    pub(crate) functions: &'a Functions,
+    pub(crate) variables: &'a BTreeMap<Resource, String>,
+    /// By parameter: the WGSL that reads it.
+    pub(crate) reads: &'a [Option<String>],
+}
+
 struct Printer<'a> {
     program: &'a Program,
     reached: &'a Reached,
-    functions: &'a Functions,
-    variables: &'a BTreeMap<Resource, String>,
-    /// By parameter: the WGSL that reads it.
-    reads: &'a [Option<String>],
+    tables: &'a Tables<'a>,
+    /// What is read of what is interpolated, by name; what is not in here is computed where it is read.
+    interpolated: BTreeMap<Id, &'a str>,
+    /// In the vertex stage the local values of what meshes bring; elsewhere they are inputs.
+    local: Option<BTreeMap<Varying, String>>,
     names: Names,
     /// What to write where an expression is used, unless [`Printer::leaf`] knows it.
     printed: Vec<Text>,
@@ -29,21 +39,49 @@ struct Printer<'a> {
     ports: BTreeMap<usize, Vec<Arc<str>>>,
 }
 
-#[allow(clippy::too_many_arguments, reason = "the printer's whole input, handed over once")]
+/// Computes in the vertex stage what is interpolated beside what meshes bring.
+pub(crate) fn write_interpolated(
+    text: &mut Text,
+    program: &Program,
+    stages: &Stages,
+    tables: &Tables<'_>,
+    names: &Names,
+) {
+    if stages.interpolated.is_empty() {
+        return;
+    }
+    let mut printer = Printer::new(program, &stages.vertex, tables, names.clone());
+    let mut local = BTreeMap::new();
+    for v in &stages.vertex.varyings {
+        let (name, _, value) = varying(*v);
+        let name = printer.names.fresh(name);
+        text.line(&format!("    let {name} = {value};"));
+        local.insert(*v, name);
+    }
+    printer.local = Some(local);
+    printer.write_lines(text, &stages.vertex.order, None);
+    for (id, (name, _)) in &stages.interpolated {
+        let start = text.len();
+        text.push(&format!("    out.{name} = "));
+        program.get(*id).operands.iter().for_each(|operand| printer.append(text, *operand));
+        text.push(";\n");
+        for node in program.get(*id).origins.iter() {
+            text.origin(start, &program.nodes[node].id, None);
+        }
+    }
+}
+
 pub(crate) fn write_fragment(
     text: &mut Text,
     program: &Program,
-    reached: &Reached,
+    stages: &Stages,
     root: Id,
-    functions: &Functions,
-    variables: &BTreeMap<Resource, String>,
-    reads: &[Option<String>],
+    tables: &Tables<'_>,
     names: Names,
 ) {
-    let printed = vec![Text::default(); program.expressions.len()];
-    let ports_of = |f: &usize| program.functions[*f].function().inputs.iter().map(|p| p.name.as_str().into()).collect();
-    let ports = reached.functions.iter().map(|f| (*f, ports_of(f))).collect();
-    let mut printer = Printer { program, reached, functions, variables, reads, names, printed, ports };
+    let reached = &stages.fragment;
+    let mut printer = Printer::new(program, reached, tables, names);
+    printer.interpolated = stages.interpolated.iter().map(|(id, (name, _))| (*id, name.as_str())).collect();
     let division = divide(program, reached, root);
     let (attribute, parameter, argument) = if reached.inputs.contains("front_facing") {
         (", @builtin(front_facing) front_facing: bool", ", front_facing: bool", ", front_facing")
@@ -85,7 +123,15 @@ pub(crate) fn write_fragment(
     text.line("}");
 }
 
-impl Printer<'_> {
+impl<'a> Printer<'a> {
+    fn new(program: &'a Program, reached: &'a Reached, tables: &'a Tables<'a>, names: Names) -> Self {
+        let ports_of =
+            |f: &usize| program.functions[*f].function().inputs.iter().map(|p| p.name.as_str().into()).collect();
+        let ports = reached.functions.iter().map(|f| (*f, ports_of(f))).collect();
+        let printed = vec![Text::default(); program.expressions.len()];
+        Self { program, reached, tables, interpolated: BTreeMap::new(), local: None, names, printed, ports }
+    }
+
     fn write_lines(&mut self, text: &mut Text, ids: &[Id], division: Option<&Division>) {
         let mut last_comment = String::new();
         for &id in ids {
@@ -100,7 +146,7 @@ impl Printer<'_> {
         for id in ids.iter().filter(|id| division.read_later[id.0 as usize]) {
             let expression = self.program.get(*id);
             let result = match expression.op {
-                Op::Call(function) => self.functions.results.get(&function),
+                Op::Call(function) => self.tables.functions.results.get(&function),
                 _ => None,
             };
             let shape = || expression.shape.as_ref().map(Shape::wgsl).unwrap_or_default();
@@ -115,7 +161,7 @@ impl Printer<'_> {
         if !self.reached.has_line(program, id) {
             if self.leaf(expression).is_none() {
                 let mut printed = Text::default();
-                self.print(expression, &mut printed);
+                self.print(id, &mut printed);
                 self.printed[id.0 as usize] = printed;
             }
             return;
@@ -137,7 +183,7 @@ impl Printer<'_> {
         text.push(if read_later { "    " } else { "    let " });
         text.push(&name);
         text.push(" = ");
-        self.print(expression, text);
+        self.print(id, text);
         text.push(";\n");
         for node in expression.origins.iter() {
             text.origin(start, &program.nodes[node].id, expression.port.as_ref());
@@ -148,9 +194,11 @@ impl Printer<'_> {
     /// What to write for an expression that is a word without parts.
     fn leaf<'e>(&'e self, expression: &'e Expression) -> Option<&'e str> {
         match &expression.op {
-            Op::Parameter(index) => Some(self.reads[*index].as_deref().expect("what is reached is in the block")),
+            Op::Parameter(index) => {
+                Some(self.tables.reads[*index].as_deref().expect("what is reached is in the block"))
+            }
             Op::Literal(text) => Some(text),
-            Op::Resource(resource) => Some(self.variables.get(resource).expect("what is reached is bound")),
+            Op::Resource(resource) => Some(self.tables.variables.get(resource).expect("what is reached is bound")),
             _ => None,
         }
     }
@@ -173,7 +221,8 @@ impl Printer<'_> {
         printed
     }
 
-    fn print(&self, expression: &Expression, out: &mut Text) {
+    fn print(&self, id: Id, out: &mut Text) {
+        let expression = self.program.get(id);
         let operands = &expression.operands;
         match &expression.op {
             Op::Template { text, .. } => {
@@ -199,7 +248,14 @@ impl Printer<'_> {
                 out.push(".");
                 out.push(name);
             }
-            Op::Varying(v) => word(out, "in.", varying(*v).0),
+            Op::Interpolated => match self.interpolated.get(&id) {
+                Some(name) => word(out, "in.", name),
+                None => operands.iter().for_each(|of| self.append(out, *of)),
+            },
+            Op::Varying(v) => match self.local.as_ref().and_then(|local| local.get(v)) {
+                Some(name) => out.push(name),
+                None => word(out, "in.", varying(*v).0),
+            },
             Op::Input("front_facing") => out.push("front_facing"),
             Op::Input(name) => word(out, "in.", name),
             Op::Frame(name) => word(out, "frame.", name),
@@ -209,7 +265,7 @@ impl Printer<'_> {
     }
 
     fn print_call(&self, function: usize, expression: &Expression, out: &mut Text) {
-        let called = self.functions.names.get(&function).expect("what is reached is declared");
+        let called = self.tables.functions.names.get(&function).expect("what is reached is declared");
         word(out, called, "(");
         let operands = &expression.operands;
         let ports = self.ports.get(&function);

@@ -11,6 +11,7 @@ mod functions;
 mod layout;
 mod names;
 mod parts;
+mod rates;
 mod stages;
 mod text;
 
@@ -48,8 +49,8 @@ impl Reached {
     }
 }
 
-/// Follows operands from the root, without recursion.
-fn reach(program: &Program, root: Id) -> Reached {
+/// Follows operands from the roots, without recursion, but not those of `cut`: another stage computes them.
+fn reach(program: &Program, roots: &[Id], cut: &BTreeSet<Id>) -> Reached {
     let mut reached = Reached {
         order: Vec::new(),
         uses: vec![0; program.expressions.len()],
@@ -59,7 +60,7 @@ fn reach(program: &Program, root: Id) -> Reached {
         resources: BTreeSet::new(),
     };
     let mut seen = vec![false; program.expressions.len()];
-    let mut open = vec![(root, false)];
+    let mut open: Vec<(Id, bool)> = roots.iter().rev().map(|root| (*root, false)).collect();
     while let Some((id, done)) = open.pop() {
         if done {
             reached.order.push(id);
@@ -70,7 +71,9 @@ fn reach(program: &Program, root: Id) -> Reached {
         }
         open.push((id, true));
         let expression = program.get(id);
-        open.extend(expression.operands.iter().rev().map(|o| (*o, false)));
+        if !cut.contains(&id) {
+            open.extend(expression.operands.iter().rev().map(|o| (*o, false)));
+        }
         match &expression.op {
             Op::Call(f) | Op::Template { function: Some(f), .. } => drop(reached.functions.insert(*f)),
             Op::Varying(v) => drop(reached.varyings.insert(*v)),
@@ -79,7 +82,7 @@ fn reach(program: &Program, root: Id) -> Reached {
             _ => {}
         }
     }
-    for id in &reached.order {
+    for id in reached.order.iter().filter(|id| !cut.contains(id)) {
         let expression = program.get(*id);
         let mut read = |position: usize| {
             if let Some(operand) = expression.operands.get(position) {
@@ -92,15 +95,16 @@ fn reach(program: &Program, root: Id) -> Reached {
             _ => (0..expression.operands.len()).for_each(&mut read),
         }
     }
-    reached.uses[root.0 as usize] += 1;
+    roots.iter().for_each(|root| reached.uses[root.0 as usize] += 1);
     reached
 }
 
 /// The module and plan of a program. Diagnostics are about node and pass files only.
 pub fn emit(program: &Program, catalog: &Catalog, title: &str) -> (Module, Plan, Vec<Diagnostic>) {
     let root = program.root.expect("a program that was built has a root");
-    let reached = reach(program, root);
-    let (plan, maps, diagnostics) = plan_of(program, &reached, catalog);
+    let stages = rates::stages(program, root, catalog);
+    let reached = &stages.all;
+    let (plan, maps, diagnostics) = plan_of(program, reached, catalog);
     let mut names = Names::default();
     for fixed in [
         "Frame",
@@ -122,10 +126,10 @@ pub fn emit(program: &Program, catalog: &Catalog, title: &str) -> (Module, Plan,
     for group in block::group_names(program) {
         names.claim(&group);
     }
-    let functions = functions::gather(program, &reached, catalog, &mut names);
-    let block = block::block(program, &reached, &plan);
-    let (bindings, variables) = bindings::bind(program, &reached, &maps, block.bytes > 0, &mut names);
-    let attributes = attributes(&reached);
+    let functions = functions::gather(program, reached, catalog, &mut names);
+    let block = block::block(program, reached, &plan);
+    let (bindings, variables) = bindings::bind(program, reached, &maps, block.bytes > 0, &mut names);
+    let attributes = attributes(reached);
 
     let mut text = Text::default();
     text.line(&format!("// {title}"));
@@ -142,8 +146,9 @@ pub fn emit(program: &Program, catalog: &Catalog, title: &str) -> (Module, Plan,
         text.line(&bindings::declaration(binding));
     }
     functions.write_functions(&mut text, program);
-    stages::write_vertex(&mut text, &attributes, &reached);
-    body::write_fragment(&mut text, program, &reached, root, &functions, &variables, &block.reads, names);
+    let tables = body::Tables { functions: &functions, variables: &variables, reads: &block.reads };
+    stages::write_vertex(&mut text, &attributes, program, &stages, &tables, &names);
+    body::write_fragment(&mut text, program, &stages, root, &tables, names);
     let (wgsl, source_map) = text.finish();
     let (parameters, parameter_bytes) = (block.parameters, block.bytes);
     (Module { wgsl, bindings, parameters, parameter_bytes, attributes, source_map }, plan, diagnostics)

@@ -7,7 +7,7 @@ use crate::hash::{HashMap, HashSet};
 use crate::node::is_reserved;
 
 /// Names in use.
-#[derive(Default)]
+#[derive(Clone, Default)]
 pub(crate) struct Names {
     used: HashSet<String>,
     /// The number to try next for a name that is taken.

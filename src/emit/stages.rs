@@ -1,9 +1,11 @@
 //! The vertex stage: only what the fragment stage reads is interpolated.
 
-use super::Reached;
+use super::body::{Tables, write_interpolated};
+use super::names::Names;
+use super::rates::Stages;
 use super::text::Text;
 use crate::module::Attribute;
-use crate::program::Varying;
+use crate::program::{Program, Varying};
 
 /// Name, type and value of an interpolated quantity.
 pub(crate) fn varying(varying: Varying) -> (&'static str, &'static str, &'static str) {
@@ -35,7 +37,15 @@ fn attribute(attribute: Attribute) -> (&'static str, &'static str) {
     }
 }
 
-pub(crate) fn write_vertex(text: &mut Text, attributes: &[Attribute], reached: &Reached) {
+pub(crate) fn write_vertex(
+    text: &mut Text,
+    attributes: &[Attribute],
+    program: &Program,
+    stages: &Stages,
+    tables: &Tables<'_>,
+    names: &Names,
+) {
+    let reached = &stages.fragment;
     text.blank();
     text.line("struct Vertex {");
     for a in attributes {
@@ -50,6 +60,10 @@ pub(crate) fn write_vertex(text: &mut Text, attributes: &[Attribute], reached: &
         let (name, ty, _) = varying(*v);
         text.line(&format!("    @location({location}) {name}: {ty},"));
     }
+    for (index, (name, shape)) in stages.interpolated.values().enumerate() {
+        let location = reached.varyings.len() + index;
+        text.line(&format!("    @location({location}) {name}: {},", shape.wgsl()));
+    }
     text.line("}");
     text.blank();
     text.line("@vertex");
@@ -61,6 +75,7 @@ pub(crate) fn write_vertex(text: &mut Text, attributes: &[Attribute], reached: &
         let (name, _, value) = varying(*v);
         text.line(&format!("    out.{name} = {value};"));
     }
+    write_interpolated(text, program, stages, tables, names);
     text.line("    return out;");
     text.line("}");
 }

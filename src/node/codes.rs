@@ -7,7 +7,7 @@ pub const CODES: &[(&str, &str)] = &[
     ("ST0102", "A header line does not follow its form."),
     ("ST0103", "The category is not one of the families of nodes."),
     ("ST0104", "The same thing is said twice."),
-    ("ST0105", "The default of an option is not among its choices."),
+    ("ST0105", "The default of an option, or a choice of a cheaper form, is not among the choices of the option."),
     ("ST0106", "A header line names an input that no port line describes."),
     ("ST0107", "A header line refers with `$` to an option that the file does not have."),
     ("ST0108", "A `//!` line stands behind the header."),

@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
+use super::cheaper::CheaperSpec;
 use crate::diagnostic::SourceText;
 use crate::semantic::{Shape, Type, Value};
 
@@ -40,6 +41,8 @@ pub struct Header {
     pub uses: Vec<String>,
     /// Whether the body is one `return`, to be written in place.
     pub inline: bool,
+    /// Whether the result is computed for each vertex and interpolated, where the vertex stage can compute it.
+    pub vertex: bool,
     /// Whether the first two inputs may be swapped.
     pub commutative: bool,
     /// Shapes that `T` may take; the first is the file's own. Empty: not generic.
@@ -54,6 +57,8 @@ pub struct Header {
     pub samplers: Vec<SamplerSpec>,
     /// How images are read, by port.
     pub textures: Vec<TextureSpec>,
+    /// Cheaper forms that can stand for the node.
+    pub cheaper: Vec<CheaperSpec>,
 }
 
 /// A structural choice.

@@ -47,6 +47,10 @@ pub fn markdown(definition: &Definition) -> String {
             let _ = writeln!(out, "| `{}` | {} | {} | {doc} |", option.name, option.choices.join(", "), option.default);
         }
     }
+    if !header.cheaper.is_empty() {
+        let _ =
+            writeln!(out, "\nCheaper: {}", header.cheaper.iter().map(|c| c.doc.as_str()).collect::<Vec<_>>().join(" "));
+    }
     out
 }
 
@@ -85,6 +89,12 @@ pub fn text(definition: &Definition) -> String {
             let _ = writeln!(out, "  {}: {choices} = {}\n    {}", option.name, option.default, option.doc);
         }
     }
+    if !header.cheaper.is_empty() {
+        out.push_str("\ncheaper:\n");
+        for form in &header.cheaper {
+            let _ = writeln!(out, "  {}", form.doc);
+        }
+    }
     out
 }
 
@@ -110,6 +120,7 @@ pub fn json(definition: &Definition) -> Json {
         "inputs": ports(&mut definition.inputs().filter(|p| !p.hidden)),
         "outputs": ports(&mut definition.main.outputs.iter()),
         "options": options,
+        "cheaper": header.cheaper.iter().map(|c| &c.doc).collect::<Vec<_>>(),
     })
 }
 

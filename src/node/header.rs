@@ -2,6 +2,7 @@
 
 use std::sync::Arc;
 
+use super::cheaper::{self, Form};
 use super::definition::{Header, MapSpec, OptionSpec, SamplerSpec, SpaceSpec, TextureSpec};
 use super::projection::{PROJECTIONS, Projection};
 use super::report::{Piece, Report, lines};
@@ -16,6 +17,8 @@ pub const CATEGORIES: &[&str] =
 
 /// Keys of one word, then keys that name a port, option or type parameter.
 const KEYS: &[&str] = &["label", "category", "synonyms", "use", "space"];
+/// May be said many times.
+const CHEAPER: &str = "cheaper";
 const NAMED_KEYS: &[&str] = &["option", "map", "sampler", "texture", "generic"];
 
 /// Reads the header. `strict` demands what the catalogue needs (label, category); WGSL inside a graph does without.
@@ -31,12 +34,14 @@ pub(crate) fn parse(source: &Arc<SourceText>, strict: bool) -> (Header, Vec<Diag
             uses: Vec::new(),
             inline: false,
             commutative: false,
+            vertex: false,
             generic: Vec::new(),
             options: Vec::new(),
             space: None,
             maps: Vec::new(),
             samplers: Vec::new(),
             textures: Vec::new(),
+            cheaper: Vec::new(),
         },
         seen: Vec::new(),
         port_names: port_names(&source.text),
@@ -83,6 +88,7 @@ impl<'a> Reader<'a> {
     fn line(&mut self, line: Piece<'a>) {
         match line.text {
             "inline" => return self.flag(line, |h| &mut h.inline),
+            "vertex" => return self.flag(line, |h| &mut h.vertex),
             "commutative" => return self.flag(line, |h| &mut h.commutative),
             _ => {}
         }
@@ -91,6 +97,7 @@ impl<'a> Reader<'a> {
         };
         let words = key.words();
         match words[..] {
+            [word] if word.text == CHEAPER => self.cheaper(value),
             [word] if KEYS.contains(&word.text) => {
                 if self.once(word, word.text.to_owned()) {
                     self.plain(word.text, value);
@@ -106,7 +113,7 @@ impl<'a> Reader<'a> {
                 }
             }
             [word] if looks_like_key(word.text) && (value.text.is_empty() || value.at > word.range().end + 1) => {
-                let known = KEYS.iter().chain(NAMED_KEYS).copied().chain(["inline", "commutative"]);
+                let known = KEYS.iter().chain(NAMED_KEYS).copied().chain([CHEAPER, "inline", "commutative", "vertex"]);
                 self.report
                     .error("ST0101", word.range(), format!("`{}` is not a key of node headers", word.text))
                     .suggest(did_you_mean(word.text, known));
@@ -214,6 +221,26 @@ impl<'a> Reader<'a> {
         self.port(name);
     }
 
+    fn cheaper(&mut self, value: Piece<'a>) {
+        let mut inputs = Vec::new();
+        let spec = cheaper::cheaper(&mut self.report, value, &mut inputs, &mut self.mentioned);
+        inputs.into_iter().for_each(|input| self.port(input));
+        self.header.cheaper.extend(spec);
+    }
+
+    /// Choices of `cheaper:` lines that their options do not have.
+    fn check_choices(&mut self) {
+        for spec in &self.header.cheaper {
+            let Form::Option { name, choices } = &spec.form else { continue };
+            let Some(option) = self.header.options.iter().find(|o| o.name == *name) else { continue };
+            for choice in choices.iter().filter(|c| !option.choices.contains(c)) {
+                self.report
+                    .error("ST0105", spec.range.clone(), format!("`{choice}` is not a choice of option `{name}`"))
+                    .help(format!("its choices are {}", option.choices.join(", ")));
+            }
+        }
+    }
+
     fn generic(&mut self, name: Piece<'a>, value: Piece<'a>) {
         if name.text != "T" {
             self.report
@@ -265,6 +292,7 @@ impl<'a> Reader<'a> {
                     .among(name, names);
             }
         }
+        self.check_choices();
         (self.header, self.report.found)
     }
 }

@@ -1,6 +1,7 @@
 //! Node definitions read from WGSL files, and the catalogue of them.
 
 mod catalog;
+mod cheaper;
 mod check;
 mod codes;
 mod conditional;
@@ -8,6 +9,7 @@ mod custom;
 mod definition;
 mod document;
 mod file;
+mod formula;
 mod functions;
 mod header;
 mod items;
@@ -24,6 +26,7 @@ mod tokens;
 mod verify;
 
 pub use catalog::Catalog;
+pub use cheaper::{CheaperSpec, Form};
 pub use codes::CODES;
 pub use custom::custom;
 pub use definition::{
@@ -32,6 +35,7 @@ pub use definition::{
 };
 pub use document::{json, markdown, text};
 pub use file::NodeFile;
+pub use formula::{Formula, Known};
 pub use header::CATEGORIES;
 pub use pass::{PassFile, PassKind, Skip, reachable};
 pub use projection::{MOST_VIEWS, PROJECTIONS, Projection};

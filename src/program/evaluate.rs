@@ -77,6 +77,7 @@ impl Program {
         let index = self.function(&definition, node.generic.as_ref(), ambient);
         let name = self.result_name(context, function, ambient);
         let op = match inline {
+            _ if definition.header.vertex && arguments.len() == 1 => Op::Interpolated,
             Some(body) => Op::Template { text: self.inline_text(index, body), function: Some(index) },
             None => Op::Call(index),
         };

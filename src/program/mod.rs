@@ -45,6 +45,8 @@ pub enum Op {
     Member(Rc<str>),
     /// A value interpolated from vertices.
     Varying(Varying),
+    /// The operand, to be computed for each vertex and interpolated where the vertex stage can compute it.
+    Interpolated,
     /// A built-in input of the fragment stage: `clip_position` or `front_facing`.
     Input(&'static str),
     /// A member of the frame block.
