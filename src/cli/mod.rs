@@ -4,6 +4,9 @@
 
 mod check;
 #[cfg(feature = "render")]
+mod choice;
+mod choose;
+#[cfg(feature = "render")]
 mod comparison;
 mod compare;
 mod completions;
@@ -77,6 +80,7 @@ enum Command {
     Check(check::Check),
     Render(render::Render),
     Compare(compare::Compare),
+    Choose(choose::Choose),
     Figure(figure::DrawFigure),
     Nodes(nodes::Nodes),
     Fmt(fmt::Fmt),
@@ -95,6 +99,7 @@ impl Command {
             Self::Check(c) => c.run(context),
             Self::Render(c) => c.run(context),
             Self::Compare(c) => c.run(context),
+            Self::Choose(c) => c.run(context),
             Self::Figure(c) => c.run(context),
             Self::Nodes(c) => c.run(context),
             Self::Fmt(c) => c.run(context),
