@@ -30,3 +30,19 @@ pub use predict::{Metric, Outlook, cut, predict};
 pub use pyramid::{Cell, Pyramid};
 pub use receiver::{Effort, Receiver, Receivers, Site, looked, receivers};
 pub use texels::{Looked, Plane, Texel, Texels};
+
+/// What each code of choosing means, for `shadetree explain`.
+pub const CODES: &[(&str, &str)] = &[
+    ("ST0700", "Shadows are chosen for a scene, and the file is a graph."),
+    ("ST0701", "The scene has no light, so there is no shadow to choose."),
+    ("ST0702", "The scene has no light of the name that `--light` gives."),
+    (
+        "ST0703",
+        "Shadows can be chosen for light graphs with one light node, with it and its shadows in the graph itself rather \
+         than in a subgraph; this one is otherwise.",
+    ),
+    ("ST0704", "No shadow keeps to the error and the time that were asked for, or the chosen one was found not to."),
+    ("ST0705", "One light graph was to be written, but shadows are chosen for several lights."),
+    ("ST0706", "The constants of a device cannot be used: the file holds none, or lacks some."),
+    ("ST0707", "The constants of this device could not be kept in the user's folder for caches."),
+];

@@ -2,9 +2,10 @@
 
 use serde_json::{Value, json};
 
-use super::{Choice, Choose, error_of};
+use super::Choose;
 use crate::choose::{Verdict, Wish};
 use crate::reference::Metrics;
+use crate::studio::choice::{Choice, error_of};
 
 /// For people: a paragraph a light.
 pub(super) fn text(choices: &[Choice], wish: &Wish, device: &str, command: &Choose) -> String {

@@ -29,7 +29,7 @@ const ROUNDS: Rounds = Rounds { warm_up: 1, counted: 5 };
 const EFFORT: Effort = Effort { edges: 40, others: 80, rays: 16 };
 
 /// How many frames a calibration draws at most: for a bar of progress.
-pub const FRAMES: u64 = 640;
+pub const FRAMES: u64 = 720;
 
 /// Measures the constants of a device. `each` is told of every frame.
 pub fn calibrate(
