@@ -2,6 +2,8 @@
 
 mod commands;
 #[cfg(feature = "render")]
+mod choose;
+#[cfg(feature = "render")]
 mod compare;
 #[cfg(feature = "render")]
 mod figure;

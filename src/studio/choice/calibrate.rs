@@ -10,6 +10,7 @@ use super::trial::Trier;
 use crate::choose::{
     Candidate, CostTable, Demand, Effort, Filter, Judge, Metric, Share, Storage, Work, candidates, predict, work,
 };
+use crate::compile::Output;
 use crate::node::Catalog;
 use crate::reference::picture::Watch;
 use crate::render::Gpu;
@@ -24,7 +25,7 @@ const SUN: &str = include_str!("sun.ron");
 /// Sides of maps and sizes of pictures, which go together: either alone changes other passes.
 const SIZES: [(u32, (u32, u32)); 3] = [(256, (320, 180)), (1024, (160, 120)), (128, (640, 360))];
 /// Rounds for each.
-const ROUNDS: Rounds = Rounds { warm_up: 1, counted: 5 };
+const ROUNDS: Rounds = Rounds { warm_up: 0, counted: 5 };
 /// Exactness of what is only to tell how long footprints are.
 const EFFORT: Effort = Effort { edges: 40, others: 80, rays: 16 };
 
@@ -75,6 +76,10 @@ pub fn calibrate(
             let site = stand.site(lamp, size);
             let outlooks = predict(&site, &look.0, few, Metric::Rms, watch).ok_or_else(Failure::cancelled)?;
             let trier = Trier::new(&stand, catalog, listener, &texts, &[], size);
+            // What a device cannot draw gets no price, and so is never chosen.
+            let output = Output::Visibility(lamp.name.clone());
+            let able = |c: &Candidate, gpu: &mut Gpu| trier.picture(lamp, Some(c), &output, gpu).is_ok();
+            let outlooks: Vec<_> = outlooks.into_iter().filter(|o| able(&o.candidate, gpu)).collect();
             let all: Vec<Candidate> = outlooks.iter().map(|o| o.candidate.clone()).collect();
             let laps = trier.raced(lamp, &all, ROUNDS, gpu, cancel, &mut each)?;
             let load = stand.load(lamp, &look.0, size);
