@@ -1,9 +1,10 @@
 //! What each diagnostic code means, in one place: `shadetree explain`, the documentation and the tests read it.
 //!
 //! Codes are stable. ST0xx: files, graphs. ST1xx: node files. ST2xx: weaving. ST3xx: plan and text. ST4xx: scenes.
-//! ST5xx: command line and rendering. ST6xx: studies. ST9xx: faults of the program itself.
+//! ST5xx: command line and rendering. ST6xx: studies. ST7xx: choosing shadows, simplifying. ST9xx: faults of the program
+//! itself.
 
-use crate::{graph, node, ron, scene, study};
+use crate::{choose, graph, node, ron, scene, study};
 
 /// An explanation.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -264,7 +265,7 @@ of it by name, and exactly one shadow node in that light's graph.",
 
 /// All explanations, sorted by code.
 pub fn entries() -> Vec<Entry> {
-    let tables = [ron::CODES, graph::CODES, node::CODES, scene::CODES];
+    let tables = [ron::CODES, graph::CODES, node::CODES, scene::CODES, choose::CODES];
     let others = tables.into_iter().flatten().map(|&(code, meaning)| Entry { code, meaning, more: "" });
     let own = WEAVE.iter().chain(OWN).chain(study::CODES).map(|&(code, meaning, more)| Entry { code, meaning, more });
     let mut all: Vec<Entry> = others.chain(own).collect();

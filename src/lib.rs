@@ -18,6 +18,7 @@ pub mod export;
 pub mod reflect;
 pub mod scene;
 pub mod reference;
+pub mod choose;
 pub mod view;
 #[cfg(feature = "render")]
 pub mod render;

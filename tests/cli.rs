@@ -3,6 +3,8 @@
 mod chart;
 mod commands;
 #[cfg(feature = "render")]
+mod choose;
+#[cfg(feature = "render")]
 mod compare;
 #[cfg(feature = "render")]
 mod figure;

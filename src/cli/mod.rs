@@ -5,6 +5,9 @@
 mod chart;
 mod check;
 #[cfg(feature = "render")]
+mod choice;
+mod choose;
+#[cfg(feature = "render")]
 mod comparison;
 mod compare;
 mod completions;
@@ -88,6 +91,7 @@ enum Command {
     Render(render::Render),
     Compare(compare::Compare),
     Chart(chart::DrawChart),
+    Choose(choose::Choose),
     Figure(figure::DrawFigure),
     Study(study::RunStudy),
     Simplify(simplify::Simplify),
@@ -109,6 +113,7 @@ impl Command {
             Self::Render(c) => c.run(context),
             Self::Compare(c) => c.run(context),
             Self::Chart(c) => c.run(context),
+            Self::Choose(c) => c.run(context),
             Self::Figure(c) => c.run(context),
             Self::Study(c) => c.run(context),
             Self::Simplify(c) => c.run(context),

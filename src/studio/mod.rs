@@ -5,6 +5,8 @@
 //! images (`stock`) a picture (`picture`). Nothing is printed: what is found is told to a [`Listener`].
 
 pub mod assets;
+#[cfg(feature = "render")]
+pub mod choice;
 pub mod failure;
 #[cfg(feature = "render")]
 pub mod figure;

@@ -209,7 +209,7 @@ fn read(subject: &Subject<'_>, weaver: &Weaver<'_>) -> Result<(Scene, PathBuf, V
 }
 
 /// Something for lights to shine on: without it they would be told that there is nothing.
-fn plain_surface() -> NamedGraph {
+pub(super) fn plain_surface() -> NamedGraph {
     let text = "Graph(version: 1, nodes: {\"surface\": (kind: \"lambert\")})";
     let (graph, _) = graph::read(&SourceText::new("surface.ron", text));
     NamedGraph { name: "any surface".into(), graph: graph.unwrap_or_default(), ..NamedGraph::default() }

@@ -3,7 +3,7 @@
 use super::failure::{Failure, Listener};
 use super::truth::{Wanted, no_truth};
 use crate::module::stored;
-use crate::node::SpaceSpec;
+use crate::node::{Projection, SpaceSpec};
 use crate::reference::{Cut, Filter, Light, Taps, Weights, World, kernel};
 use crate::weave::{Node, Root, Wire, Woven};
 
@@ -26,6 +26,15 @@ pub(super) fn light(woven: &Woven, world: &World) -> Result<Light, Failure> {
     Light::projected(&space.projection, &inputs, world).map_err(|m| {
         fail(message(m), "the inputs named by the `space:` line of the light must be numbers that make sense")
     })
+}
+
+/// Where the maps of the light end, metres along their axes; none where they fit the scene.
+pub(super) fn far(woven: &Woven) -> Result<Option<f64>, Failure> {
+    let (node, _) = wanted(woven)?;
+    let Some(space) = &node.definition.header.space else { return Ok(None) };
+    let known = Projection::named(&space.projection);
+    let Some(index) = known.and_then(|p| p.inputs.iter().position(|i| *i == "range")) else { return Ok(None) };
+    Ok(inputs(node, space)?.get(index).and_then(|i| i.first()).copied())
 }
 
 /// The values of the inputs that a light's maps are made from, in metres and radians.
