@@ -115,3 +115,32 @@ fn what_cannot_be_simplified_is_told() {
     let ran = run(&format!("simplify {graph} --nodes {} --size 32x24", nodes.display())).exits(0);
     ran.says("ST0752").says("did you mean `lambert`?");
 }
+
+/// What changes evenly over a triangle is the same whether it is computed for each vertex or for each fragment.
+#[test]
+fn what_is_linear_is_the_same_at_either_rate() {
+    if gpu().is_none() {
+        return;
+    }
+    let folder = tempfile::tempdir().expect("a folder");
+    let nodes = |muted: &str| {
+        format!(
+            "\"at\": (kind: \"position\"), \"parts\": (kind: \"separate3\"), \"scaled\": (kind: \"multiply\", params: {{\"b\": 0.25}}), \"rate\": (kind: \"per_vertex\"{muted}), \"look\": (kind: \"unlit\")"
+        )
+    };
+    let links =
+        "\"at -> parts\", \"parts.y -> scaled.a\", \"scaled.product -> rate.value\", \"rate.value -> look.color\"";
+    let picture = |name: &str, muted: &str| {
+        let graph = format!("Graph(version: 1, nodes: {{{}}}, links: [{links}])", nodes(muted));
+        let file = put(folder.path(), &format!("{name}.ron"), &graph);
+        let out = folder.path().join(format!("{name}.png"));
+        run(&format!("render {file} --size 32x24 -o {}", out.display())).exits(0);
+        image::open(&out).expect("a PNG").into_rgb8()
+    };
+    let (vertex, fragment) = (picture("vertex", ""), picture("fragment", ", muted: true"));
+    let shades: std::collections::BTreeSet<u8> = fragment.pixels().map(|p| p.0[0]).collect();
+    assert!(shades.len() > 20, "the ball is seen: {shades:?}");
+    for (a, b) in vertex.pixels().zip(fragment.pixels()) {
+        assert!((0..3).all(|i| a.0[i].abs_diff(b.0[i]) <= 1), "{a:?} is not {b:?}");
+    }
+}
