@@ -197,6 +197,20 @@ impl<'a> Chart<'a> {
         Some(Self { choice: choice.clone(), reference, frame, other_frames: others, methods, panels, machine, rounds })
     }
 
+    /// What is known of records without a chart, where errors were not measured; none without records.
+    pub fn without_panels(records: &'a [Record], choice: &Choice) -> Option<Self> {
+        Some(Self {
+            choice: choice.clone(),
+            reference: choice.reference.clone().unwrap_or_default(),
+            frame: choice.frame.unwrap_or_default(),
+            other_frames: Vec::new(),
+            methods: distinct(records.iter().map(|r| r.method.clone())),
+            panels: Vec::new(),
+            machine: records.first()?.machine.clone(),
+            rounds: (0, 0),
+        })
+    }
+
     /// Whether some point has no error at all, which has no place on a logarithmic axis.
     pub fn has_zero(&self) -> bool {
         self.panels.iter().flat_map(|p| &p.points).any(|p| p.error == 0.0)

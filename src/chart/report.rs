@@ -53,17 +53,21 @@ pub fn html(report: &Report<'_>, picture: &dyn Fn(&str) -> Option<Vec<u8>>) -> S
         escaped(&machine(&chart.machine)),
         report.records.len()
     );
-    body.push_str("<h2>Error against time</h2>\n");
-    body.push_str(&svg(chart, "").replacen(
-        "<svg ",
-        "<svg class=\"chart\" role=\"img\" aria-label=\"Error against time\" ",
-        1,
-    ));
-    body.push_str(
+    if chart.panels.is_empty() {
+        body.push_str("<p>No errors were measured, so there is no chart of them.</p>\n");
+    } else {
+        body.push_str("<h2>Error against time</h2>\n");
+        body.push_str(&svg(chart, "").replacen(
+            "<svg ",
+            "<svg class=\"chart\" role=\"img\" aria-label=\"Error against time\" ",
+            1,
+        ));
+        body.push_str(
         "<p>Both axes are logarithmic; further left is quicker, further down nearer to the truth. Points of a method are \
 joined in the order of its sweep, and the numbers beside those of the front are what it is set to there.</p>\n",
     );
-    body.push_str(&tables(chart));
+        body.push_str(&tables(chart));
+    }
     body.push_str(&claims::section(report.verdicts, &chart.machine));
     let device = if chart.machine.adapter.is_empty() { "this adapter" } else { &chart.machine.adapter };
     body.push_str(&published::section(report.comparisons, device));

@@ -9,7 +9,7 @@ use super::exit::{Exit, Failure, Outcome};
 use super::output;
 use super::results::{Results, read};
 use crate::chart::{self, Chart, Choice, METRICS, Metric, REGIONS, Report, Time};
-use crate::diagnostic::{Diagnostic, Place, has_errors};
+use crate::diagnostic::{Diagnostic, Place, Severity, has_errors};
 use crate::studio::Loader;
 use crate::study::claims::judge;
 use crate::study::figures::figure;
@@ -109,7 +109,7 @@ fn form(path: &Path) -> Option<Form> {
 
 impl DrawChart {
     pub(super) fn run(&self, context: &Context) -> Outcome {
-        let files = self.files(context)?;
+        let mut files = self.files(context)?;
         let loader = Loader::default();
         let Results { records, study, warnings } = read(&self.folder, &loader)?;
         context.report(&warnings);
@@ -123,7 +123,22 @@ impl DrawChart {
             }
             sheet = read;
         }
-        let chart = self.chart(&records)?;
+        let chart = match self.chart(&records) {
+            Ok(chart) => chart,
+            Err(mut failure) => {
+                // Claims and published tables are about times, and a report can do with them.
+                let drawn = self.output.iter().any(|path| form(path) != Some(Form::Html));
+                let has_words = !sheet.claims.is_empty() || !sheet.published.is_empty();
+                let Some(chart) = Chart::without_panels(&records, &self.choice()).filter(|_| has_words && !drawn)
+                else {
+                    return Err(failure);
+                };
+                failure.diagnostics.iter_mut().for_each(|d| d.severity = Severity::Warning);
+                context.report(&failure.diagnostics);
+                files.retain(|(_, form)| *form == Form::Html);
+                chart
+            }
+        };
         #[cfg(feature = "render")]
         let progress = super::picture::late(context, "drawing", None);
         let verdicts = judge(&sheet.claims, &records);
@@ -208,14 +223,18 @@ impl DrawChart {
         }
     }
 
-    fn chart<'a>(&self, records: &'a [Record]) -> Result<Chart<'a>, Failure> {
-        let choice = Choice {
+    fn choice(&self) -> Choice {
+        Choice {
             time: self.time.into(),
             metric: Metric::named(&self.error).unwrap_or(METRICS[0]),
             region: self.region.clone(),
             reference: self.reference.map(|r| if r == Reference::Rays { "rays" } else { "pcf" }.to_owned()),
             frame: self.frame,
-        };
+        }
+    }
+
+    fn chart<'a>(&self, records: &'a [Record]) -> Result<Chart<'a>, Failure> {
+        let choice = self.choice();
         Chart::new(records, &choice).ok_or_else(|| {
             let failed = records.iter().filter(|r| r.failure.is_some()).count();
             let timed = records.iter().filter(|r| choice.time.of(r).is_some()).count();
@@ -285,7 +304,8 @@ fn listing(report: &Report<'_>) -> String {
             let (low, high) = (figure(p.interval.0), figure(p.interval.1));
             format!(": {} {} ({low} to {high}; {}) of {}", p.what, figure(p.value), p.allowed(), p.place)
         });
-        out.push_str(&format!("  {:<14} {}{number}\n", verdict.id, verdict.outcome.words()));
+        let unsure = if verdict.decisive().is_some_and(|p| !p.sure) { ", unsure" } else { "" };
+        out.push_str(&format!("  {:<14} {}{unsure}{number}\n", verdict.id, verdict.outcome.words()));
     }
     out
 }

@@ -20,6 +20,7 @@ pub fn parse(source: &Arc<SourceText>) -> (Vec<Record>, Vec<Diagnostic>) {
     let mut records: Vec<Record> = Vec::new();
     let mut known: BTreeMap<(String, String), usize> = BTreeMap::new();
     let mut found = Vec::new();
+    let mut again: Option<(Place, String, usize)> = None;
     let mut start = 0;
     for line in source.text.split_inclusive('\n') {
         let place = Place::span(Span::new(source, start..start + line.trim_end().len()));
@@ -31,8 +32,7 @@ pub fn parse(source: &Arc<SourceText>) -> (Vec<Record>, Vec<Diagnostic>) {
             Ok(record) => {
                 let key = (record.cell.clone(), record.machine.adapter.clone());
                 if let Some(&at) = known.get(&key) {
-                    let message = format!("the cell `{}` was measured more than once", record.cell);
-                    found.push(Diagnostic::warning("ST0666", message, place).help("the later measurement counts"));
+                    again.get_or_insert_with(|| (place, record.cell.clone(), 0)).2 += 1;
                     records[at] = record;
                 } else {
                     known.insert(key, records.len());
@@ -58,6 +58,11 @@ pub fn parse(source: &Arc<SourceText>) -> (Vec<Record>, Vec<Diagnostic>) {
                 }
             }
         }
+    }
+    if let Some((place, cell, count)) = again {
+        let lines = if count == 1 { "1 line measures".to_owned() } else { format!("{count} lines measure") };
+        let message = format!("{lines} again what was measured before, first the cell `{cell}`");
+        found.push(Diagnostic::warning("ST0666", message, place).help("the later measurement counts"));
     }
     (records, found)
 }
@@ -101,7 +106,7 @@ mod tests {
     #[test]
     fn lines_are_cells_and_the_later_counts() {
         assert_eq!(read(line("a") + "\n" + &line("b")), (vec!["a".into(), "b".into()], vec![]));
-        assert_eq!(read(line("a") + &line("b") + &line("a")).1, ["ST0666"]);
+        assert_eq!(read(line("a") + &line("b") + &line("a") + &line("a")).1, ["ST0666"]);
         assert_eq!(read(String::new()), (vec![], vec![]));
     }
 

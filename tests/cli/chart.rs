@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use super::{Ran, names, put, run};
-use crate::made_study::{ADAPTER, lines, records, write};
+use crate::made_study::{ADAPTER, STUDY, lines, records, write};
 
 fn chart(folder: &Path, more: &str) -> Ran {
     run(&format!("chart {} {more}", folder.display()))
@@ -75,6 +75,12 @@ fn what_does_not_belong_together_is_refused() {
     some.iter_mut().for_each(|r| r.errors.clear());
     put(path, "results.jsonl", &lines(&some));
     chart(path, "").exits(1).says("ST0665");
+    // Times are enough for claims.
+    put(path, "study.ron", STUDY);
+    let told = chart(path, "").exits(0).says("warning[ST0665]");
+    assert!(told.text().contains("C1 ") && names(path).contains(&"report.html".to_owned()), "{}", told.text());
+    chart(path, &format!("-o {}", path.join("a.svg").display())).exits(1).says("error[ST0665]");
+    std::fs::remove_file(path.join("study.ron")).expect("there");
     chart(path, "-o x.pdf").exits(2).says("neither an .svg");
     chart(path, "--error many").exits(2);
     let told = chart(path, "--format json").exits(1);
