@@ -35,9 +35,9 @@ fn plates(folder: &std::path::Path, more: &str, casts: bool) -> String {
 #[test]
 fn the_plan_of_the_parallel_plates_is_as_expected() {
     assert!(std::path::Path::new(COSTS).exists());
-    let ran = run(&format!("choose graphs/scenes/planar.ron --max-error 0.08 --explain {SMALL}")).exits(0);
+    let ran = run(&format!("choose graphs/scenes/planar.ron --max-error 0.03 --explain {SMALL}")).exits(0);
     expect_file("tests/golden/choose/planar.txt", &ran.out);
-    let again = run(&format!("choose graphs/scenes/planar.ron --max-error 0.08 --explain {SMALL}")).exits(0);
+    let again = run(&format!("choose graphs/scenes/planar.ron --max-error 0.03 --explain {SMALL}")).exits(0);
     assert_eq!(ran.out, again.out, "the same table gives the same plan");
 }
 
