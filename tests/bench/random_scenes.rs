@@ -6,15 +6,15 @@ use std::path::PathBuf;
 use std::sync::Arc;
 
 /// A scene as texts in place of files, by paths that do not exist.
-pub struct Drawn {
+pub(crate) struct Drawn {
     /// The scene among the texts.
-    pub scene: PathBuf,
+    pub(crate) scene: PathBuf,
     /// All texts.
-    pub texts: BTreeMap<PathBuf, Arc<str>>,
+    pub(crate) texts: BTreeMap<PathBuf, Arc<str>>,
     /// What it is, in words.
-    pub what: String,
+    pub(crate) what: String,
     /// Whether anything casts.
-    pub casts: bool,
+    pub(crate) casts: bool,
 }
 
 /// Numbers drawn one after the other (splitmix64).
@@ -47,7 +47,7 @@ const PANEL: &str = "Graph(version: 1, nodes: {\"lamp\": (kind: \"rectangle_ligh
 const MATTE: &str = "Graph(version: 1, nodes: {\"matte\": (kind: \"lambert\")})";
 
 /// The scene of a number, of a series.
-pub fn drawn(seed: u64, number: u64) -> Drawn {
+pub(crate) fn drawn(seed: u64, number: u64) -> Drawn {
     let mut draw = Draw(seed.wrapping_mul(1_000_003).wrapping_add(number.wrapping_mul(7919)));
     let casts = number % 20 != 19;
     let style = ["apart", "contact", "layers", "thin", "mixed"][draw.below(5) as usize];

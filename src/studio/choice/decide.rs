@@ -156,9 +156,14 @@ pub fn verified(
         return Ok(choice);
     };
     let affordable = |p: &&Priced| wish.budget.is_none_or(|b| p.milliseconds <= b);
-    let others = all.iter().filter(|p| p.outlook.candidate != first.outlook.candidate).filter(affordable);
+    let mut left: Vec<&Priced> = all.iter().filter(|p| p.outlook.candidate != first.outlook.candidate).collect();
+    left.retain(affordable);
     let mut best: Option<(Priced, f64)> = None;
-    for priced in std::iter::once(&first).chain(others).take(MOST_TRIED) {
+    // By how much what was rendered is worse than expected: the next must be better by as much.
+    let mut worse: f64 = 1.0;
+    let mut next = Some(&first);
+    for _ in 0..MOST_TRIED {
+        let Some(priced) = next else { break };
         let tried = trier.tried(lamp, Some(&priced.outlook.candidate), &truth, gpu)?;
         let error = error_of(&tried.metrics, wish.metric);
         choice.verified.push((priced.outlook.candidate.name(), tried.metrics));
@@ -168,6 +173,11 @@ pub fn verified(
         if error <= wish.max_error {
             break;
         }
+        worse = worse.max(error / priced.outlook.error.max(1e-6));
+        left.retain(|p| p.outlook.candidate != priced.outlook.candidate);
+        let likely = left.iter().filter(|p| p.outlook.error * worse <= wish.max_error);
+        let cheapest = likely.min_by(|a, b| a.milliseconds.total_cmp(&b.milliseconds));
+        next = cheapest.or(left.iter().min_by(|a, b| a.outlook.bound.total_cmp(&b.outlook.bound))).copied();
     }
     if let Some((priced, error)) = best {
         let good = error <= wish.max_error && affordable(&&priced);
