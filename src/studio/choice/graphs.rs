@@ -32,9 +32,8 @@ pub fn rewritten(graph: &Graph, light: &str, catalog: &Catalog, chosen: Option<&
     made.nodes.retain(|n, _| !is_old(n));
     made.links.retain(|l| !is_old(&l.to.node));
     for link in &mut made.links {
-        if is_old(&link.from.node) {
-            link.from = End::node(end.clone());
-        } else if last.is_none() && link.from.node == light && chosen.is_some() {
+        let bare = last.is_none() && link.from.node == light && chosen.is_some();
+        if is_old(&link.from.node) || bare {
             link.from = End::node(end.clone());
         }
     }
