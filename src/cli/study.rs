@@ -28,7 +28,7 @@ pub(super) struct RunStudy {
     /// Folder for the results; what it holds already is not measured again
     #[arg(short, long, value_name = "DIR", required_unless_present = "list")]
     pub(super) output: Option<PathBuf>,
-    /// Fewer rounds of the grids that are marked as quick, without errors; then the laws that the study claims must hold
+    /// Only the grids that are marked as quick, without errors; then the laws that the study claims must hold
     #[arg(long)]
     pub(super) quick: bool,
     /// Measure one of N parts

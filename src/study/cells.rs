@@ -36,7 +36,7 @@ impl Cell {
 /// Cells that are drawn in turn, and the plain shadow map of each.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Batch {
-    /// All of one case, in order.
+    /// All of one class of scenes, in order.
     pub cells: Vec<Cell>,
     /// Per cell, the position of its plain shadow map in `cells`.
     pub plain: Vec<usize>,
@@ -78,7 +78,8 @@ pub fn batches(study: &Study, quick: bool, has: &dyn Fn(&str, &str) -> bool) -> 
     let mut all: Vec<Batch> = Vec::new();
     let methods = cells.chunk_by(|a, b| (a.case, a.method) == (b.case, b.method));
     for group in methods.flat_map(|method| method.chunks(BATCH)) {
-        let fits = |b: &&mut Batch| b.cells[0].case == group[0].case && b.cells.len() + group.len() <= BATCH;
+        let class = |cell: &Cell| &study.cases[cell.case].class;
+        let fits = |b: &&mut Batch| class(&b.cells[0]) == class(&group[0]) && b.cells.len() + group.len() <= BATCH;
         match all.last_mut().filter(fits) {
             Some(batch) => batch.cells.extend_from_slice(group),
             None => all.push(Batch { cells: group.to_vec(), plain: Vec::new() }),
@@ -220,6 +221,7 @@ mod tests {
         let sizes: Vec<String> = (0..30).map(|i| i.to_string()).collect();
         let grid = format!("(frames: [(4, 3)], vary: {{\"size\": [{}]}})", sizes.join(", "));
         let all = batches(&study(&grid), false, &has).expect("cells");
+        // The two cases are of two classes.
         assert!(all.iter().all(|b| b.cells.iter().all(|c| c.case == b.cells[0].case)));
         assert_ne!(slug("a/b"), slug("a:b"));
         assert_ne!(slug("a b"), slug("a_b"));
