@@ -18,7 +18,7 @@ pub(super) fn section(verdicts: &[Verdict], machine: &Machine) -> String {
     let mut out = String::from("<h2>Claims</h2>\n");
     let _ = writeln!(
         out,
-        "<p>Each is judged by medians, of software adapters by the least times. The interval holds {:.0}% of what it comes to when the rounds are drawn again \
+        "<p>Each is judged by medians. The interval holds {:.0}% of what it comes to when the rounds are drawn again \
 (bootstrap); where it reaches across a bound, it is in italics, and another run may decide otherwise. A law must hold on every device; the \
 rest are facts about {}.</p>\n<p>{}</p>",
         CONFIDENCE * 100.0,

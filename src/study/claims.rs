@@ -1,8 +1,7 @@
 //! Claims about times, and whether records bear them out.
 //!
 //! A claim names a kind of test, methods, a time and an axis. Its test is computed on every line of records along that
-//! axis, each from the median of its rounds (on software adapters the least of them), and it is held if every one of them
-//! meets its bounds. How sure each number
+//! axis, each from the medians of its rounds, and it is held if every one of them meets its bounds. How sure each number
 //! is, drawing the rounds again tells.
 
 mod kinds;
@@ -18,7 +17,7 @@ use super::Record;
 use super::figures::figure;
 use super::resample::intervals;
 use super::select::{Along, Filter, Line, Quantity};
-use super::statistics::typical;
+use super::statistics::median;
 
 /// Something that ought to be so.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -218,17 +217,13 @@ fn lines(claim: &Claim, kind: &Kind, records: &[Record]) -> (Vec<Line>, Vec<Stri
 /// The numbers of one line.
 fn measure(claim: &Claim, kind: &Kind, line: &Line) -> Vec<Part> {
     let groups = line.groups();
-    let numbers: Vec<f64> = groups.iter().map(|g| typical(g, line.software)).collect();
-    let values = line.values(&numbers);
+    let medians: Vec<f64> = groups.iter().map(|g| median(g)).collect();
+    let values = line.values(&medians);
     let found = (kind.measure)(claim, &line.x, &values);
-    let again = intervals(
-        &groups,
-        |g| typical(g, line.software),
-        |numbers| {
-            let of = (kind.measure)(claim, &line.x, &line.values(numbers));
-            of.into_iter().map(|s| s.value).collect()
-        },
-    );
+    let again = intervals(&groups, |medians| {
+        let of = (kind.measure)(claim, &line.x, &line.values(medians));
+        of.into_iter().map(|s| s.value).collect()
+    });
     let detail = (kind.detail)(claim, &line.x, &values);
     let part = |(statistic, (low, high)): (kinds::Statistic, (f64, f64))| {
         let inside = |x: f64| statistic.low.is_none_or(|b| x >= b) && statistic.high.is_none_or(|b| x <= b);

@@ -129,12 +129,12 @@ impl Published {
         let record = at(method)?;
         // Of the same rounds where they are known, else of what was measured of the plain method elsewhere.
         if let Some(ratios) = record.ratios() {
-            let interval = *intervals(&[&ratios], median, |m| vec![m[0]]).first()?;
+            let interval = *intervals(&[&ratios], |m| vec![m[0]]).first()?;
             return Some((median(&ratios), interval));
         }
         let total = |r: &Record| Quantity::Total.of(r, None).or_else(|| Quantity::Wall.of(r, None));
         let (own, plain) = (total(record)?, total(at(&self.plain)?)?);
-        let interval = *intervals(&[&own, &plain], median, |m| vec![m[0] / m[1]]).first()?;
+        let interval = *intervals(&[&own, &plain], |m| vec![m[0] / m[1]]).first()?;
         Some((median(&own) / median(&plain), interval))
     }
 }

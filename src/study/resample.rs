@@ -1,6 +1,8 @@
 //! How sure a number is that was computed from medians: the percentile bootstrap (Efron 1979), with the same random numbers
 //! in every run.
 
+use super::statistics::median;
+
 /// Share of resamples that an interval holds.
 pub const CONFIDENCE: f64 = 0.95;
 /// How often samples are drawn anew.
@@ -30,14 +32,9 @@ impl Random {
 }
 
 /// Where the results of `of` lie when each group of samples is drawn again from itself: for each result its lower and
-/// upper end. `of` is given what is `typical` of each group, such as
-/// its median, and answers with as many numbers each time; where one is no number,
+/// upper end. `of` is given the median of each group and answers with as many numbers each time; where one is no number,
 /// its interval is what the others leave.
-pub fn intervals(
-    groups: &[&[f64]],
-    typical: impl Fn(&[f64]) -> f64,
-    of: impl Fn(&[f64]) -> Vec<f64>,
-) -> Vec<(f64, f64)> {
+pub fn intervals(groups: &[&[f64]], of: impl Fn(&[f64]) -> Vec<f64>) -> Vec<(f64, f64)> {
     if groups.iter().any(|g| g.is_empty()) {
         return Vec::new();
     }
@@ -47,15 +44,15 @@ pub fn intervals(
     let mut all: Vec<Vec<f64>> = Vec::new();
     let mut again = Vec::new();
     for _ in 0..count {
-        let numbers: Vec<f64> = groups
+        let medians: Vec<f64> = groups
             .iter()
             .map(|group| {
                 again.clear();
                 again.extend((0..group.len()).map(|_| group[random.below(group.len())]));
-                typical(&again)
+                median(&again)
             })
             .collect();
-        for (i, result) in of(&numbers).into_iter().enumerate() {
+        for (i, result) in of(&medians).into_iter().enumerate() {
             if all.len() <= i {
                 all.push(Vec::with_capacity(count));
             }
@@ -78,7 +75,6 @@ fn ends(mut results: Vec<f64>) -> (f64, f64) {
 
 #[cfg(test)]
 mod tests {
-    use super::super::statistics::median;
     use super::*;
 
     /// Even noise of this width around a value.
@@ -91,7 +87,7 @@ mod tests {
     fn most_intervals_hold_the_true_value() {
         let inside = |seed: u64| {
             let (a, b) = (noisy(seed, 6.0, 2.0, 31), noisy(seed + 1000, 3.0, 1.0, 31));
-            let ends = intervals(&[&a, &b], median, |m| vec![m[0] / m[1]]);
+            let ends = intervals(&[&a, &b], |m| vec![m[0] / m[1]]);
             ends[0].0 <= 2.0 && 2.0 <= ends[0].1
         };
         let held = (0..100).filter(|seed| inside(*seed)).count();
@@ -102,13 +98,13 @@ mod tests {
     fn more_noise_is_less_sure_and_every_run_is_the_same() {
         let width = |noise: f64| {
             let samples = noisy(7, 5.0, noise, 31);
-            let (low, high) = intervals(&[&samples], median, |m| vec![m[0]])[0];
-            assert_eq!(intervals(&[&samples], median, |m| vec![m[0]]), [(low, high)]);
+            let (low, high) = intervals(&[&samples], |m| vec![m[0]])[0];
+            assert_eq!(intervals(&[&samples], |m| vec![m[0]]), [(low, high)]);
             high - low
         };
         assert!(width(0.0) == 0.0 && width(0.1) < width(1.0) && width(1.0) < 1.0);
-        assert_eq!(intervals(&[&[]], median, |m| vec![m[0]]), []);
-        let nothing = intervals(&[&[1.0]], median, |_| vec![f64::NAN]);
+        assert_eq!(intervals(&[&[]], |m| vec![m[0]]), []);
+        let nothing = intervals(&[&[1.0]], |_| vec![f64::NAN]);
         assert!(nothing[0].0.is_nan());
     }
 }

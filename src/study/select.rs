@@ -90,12 +90,10 @@ pub struct Line {
     pub samples: Vec<Vec<f64>>,
     /// Milliseconds that they are divided by.
     pub below: Option<Vec<Vec<f64>>>,
-    /// Whether an adapter that computes on the CPU measured them.
-    pub software: bool,
 }
 
 impl Line {
-    /// Values from what is typical of samples, and of what they are divided by.
+    /// Values from the medians of samples, and of what they are divided by.
     pub fn values(&self, medians: &[f64]) -> Vec<f64> {
         match &self.below {
             Some(_) => (0..self.x.len()).map(|i| medians[i] / medians[i + self.x.len()]).collect(),
@@ -181,7 +179,6 @@ impl Along<'_> {
                     let Some(other) = self.beside(&others, x, record) else { continue };
                     divisors.push(other);
                 }
-                line.software |= record.machine.software;
                 line.x.push(f64::from_bits(x));
                 line.samples.push(samples);
             }

@@ -54,12 +54,6 @@ pub fn median(samples: &[f64]) -> f64 {
     }
 }
 
-/// What stands for samples of a time: their median, or the least of them where a device computes on the processors that
-/// everything else runs on, too: all that disturbs it there makes it slower.
-pub fn typical(samples: &[f64], software: bool) -> f64 {
-    if software { samples.iter().copied().fold(f64::NAN, f64::min) } else { median(samples) }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
