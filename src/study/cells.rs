@@ -42,8 +42,9 @@ pub struct Batch {
     pub plain: Vec<usize>,
 }
 
-/// Cells of a batch at most, so that little is lost where one is stopped; those of one method are kept together.
-const BATCH: usize = 24;
+/// Cells of a batch at most. What is compared must be drawn in turn, so that all of a class should fit; but what is stopped
+/// in the middle of a batch is measured again.
+const BATCH: usize = 64;
 
 /// All cells of a study, or of its quick form, in batches. `has` tells whether a kind of shadow has a setting. The error
 /// is a sentence.
@@ -218,7 +219,7 @@ mod tests {
 
     #[test]
     fn batches_are_bounded_and_names_told_apart() {
-        let sizes: Vec<String> = (0..30).map(|i| i.to_string()).collect();
+        let sizes: Vec<String> = (0..70).map(|i| i.to_string()).collect();
         let grid = format!("(frames: [(4, 3)], vary: {{\"size\": [{}]}})", sizes.join(", "));
         let all = batches(&study(&grid), false, &has).expect("cells");
         // The two cases are of two classes.
