@@ -3,7 +3,9 @@
 use super::failure::{Failure, Listener};
 use super::truth::{Wanted, no_truth};
 use crate::module::stored;
-use crate::node::{Projection, SpaceSpec};
+#[cfg(feature = "render")]
+use crate::node::Projection;
+use crate::node::SpaceSpec;
 use crate::reference::{Cut, Filter, Light, Taps, Weights, World, kernel};
 use crate::weave::{Node, Root, Wire, Woven};
 
@@ -29,6 +31,7 @@ pub(super) fn light(woven: &Woven, world: &World) -> Result<Light, Failure> {
 }
 
 /// Where the maps of the light end, metres along their axes; none where they fit the scene.
+#[cfg(feature = "render")]
 pub(super) fn far(woven: &Woven) -> Result<Option<f64>, Failure> {
     let (node, _) = wanted(woven)?;
     let Some(space) = &node.definition.header.space else { return Ok(None) };
