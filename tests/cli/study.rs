@@ -86,7 +86,7 @@ fn parts_of_a_study_are_put_together() {
     }
     let folder = tempfile::tempdir().expect("a folder");
     let text = std::fs::read_to_string(small(folder.path())).expect("there");
-    let second = "\"again\": (scene: \"SCENE\", light: \"sun\", class: \"one layer\")";
+    let second = "\"again\": (scene: \"SCENE\", light: \"sun\", class: \"another\")";
     let scene = crate::support::root().join("graphs/scenes/planar.ron").display().to_string();
     let text = text
         .replace("class: \"one layer\")}", &format!("class: \"one layer\"), {}}}", second.replace("SCENE", &scene)));
