@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 use super::candidate::Candidate;
 
 /// Version of the tables that are written. Others are not read.
-pub const VERSION: u32 = 1;
+pub const VERSION: u32 = 2;
 /// Rounds of the fit.
 const ROUNDS: usize = 4000;
 
