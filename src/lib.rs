@@ -2,6 +2,7 @@
 
 pub mod diagnostic;
 mod hash;
+mod markup;
 pub mod semantic;
 pub mod ron;
 pub mod graph;

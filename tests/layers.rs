@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 /// What each module may use, directly.
 const ALLOWED: &[(&str, &[&str])] = &[
     ("hash", &[]),
+    ("markup", &[]),
     ("diagnostic", &[]),
     ("semantic", &["hash", "diagnostic"]),
     ("module", &["diagnostic", "semantic"]),
@@ -26,7 +27,7 @@ const ALLOWED: &[(&str, &[&str])] = &[
     ("scene", &["diagnostic", "semantic", "ron"]),
     ("reference", &["scene"]),
     ("choose", &["hash", "scene", "reference"]),
-    ("view", &["hash", "diagnostic", "semantic", "graph", "node", "weave", "compile"]),
+    ("view", &["hash", "markup", "diagnostic", "semantic", "graph", "node", "weave", "compile"]),
     ("render", &["semantic", "module", "plan", "scene", "compile"]),
     (
         "studio",
@@ -48,7 +49,7 @@ const ALLOWED: &[(&str, &[&str])] = &[
         ],
     ),
     ("study", &["diagnostic", "ron", "graph", "node", "weave", "compile", "scene", "reference", "render", "studio"]),
-    ("chart", &["reference", "study"]),
+    ("chart", &["markup", "reference", "study"]),
     (
         "simplify",
         &[

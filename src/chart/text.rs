@@ -1,32 +1,14 @@
-//! Words in SVG and HTML.
+//! Words in charts and reports.
+
+use crate::markup;
+pub(super) use crate::markup::cut;
 
 /// Fonts of drawings; the first is the one that PNG files are made with.
 pub(super) const FONT: &str = "Ubuntu, 'Ubuntu Light', Helvetica, Arial, sans-serif";
 
-/// A text as XML and HTML hold it; what XML cannot hold is left out.
+/// A text as XML and HTML hold it, in one line.
 pub(super) fn escaped(text: &str) -> String {
-    let mut out = String::with_capacity(text.len());
-    for c in text.chars() {
-        match c {
-            '<' => out.push_str("&lt;"),
-            '>' => out.push_str("&gt;"),
-            '&' => out.push_str("&amp;"),
-            '"' => out.push_str("&quot;"),
-            '\t' | '\n' => out.push(' '),
-            c if c.is_control() || matches!(c, '\u{fffe}' | '\u{ffff}') => {}
-            c => out.push(c),
-        }
-    }
-    out
-}
-
-/// A text of at most so many letters.
-pub(super) fn cut(text: &str, most: usize) -> String {
-    if text.chars().count() <= most {
-        text.to_owned()
-    } else {
-        text.chars().take(most.saturating_sub(1)).chain(['…']).collect()
-    }
+    markup::escaped(&text.replace('\n', " "))
 }
 
 /// About how wide a text is, in points, a little more rather than less.

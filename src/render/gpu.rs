@@ -137,8 +137,12 @@ impl Gpu {
             let prepared = Main { job, target, lights: &lights, maps: &maps, objects: &objects };
             let picture = prepared.render(device, &mut encoder, &timer, &main, background.as_deref(), &mut uploads)?;
             device.queue.submit([encoder.finish()]);
-            let pixels = if wanted { read_back::texture(device, &picture)? } else { Vec::new() };
-            device.wait()?;
+            let pixels = if wanted {
+                read_back::texture(device, &picture)?
+            } else {
+                device.wait()?;
+                Vec::new()
+            };
             let timings = timer.finish(device)?;
             add_new(&mut messages, uploads.messages);
             Ok(Frame { size: job.size, pixels, timings, adapter: device.summary.clone(), messages })

@@ -113,11 +113,6 @@ pub enum Timed {
 }
 
 impl Study {
-    /// The case of that name.
-    pub fn case(&self, name: &str) -> Option<&Case> {
-        self.cases.iter().find(|c| c.name == name)
-    }
-
     /// The method of that name.
     pub fn method(&self, name: &str) -> Option<&Method> {
         self.methods.iter().find(|m| m.name == name)

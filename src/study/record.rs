@@ -4,7 +4,6 @@ use std::collections::BTreeMap;
 
 use serde::{Deserialize, Serialize};
 
-use super::statistics::Spread;
 use crate::reference::Metrics;
 
 /// Version of the records that are written. Others are not read.
@@ -139,11 +138,6 @@ impl Record {
         let total = self.total()?;
         (total.len() == self.plain.len() && self.plain.iter().all(|p| *p > 0.0))
             .then(|| total.iter().zip(&self.plain).map(|(t, p)| t / p).collect())
-    }
-
-    /// The spread of [`Record::total`].
-    pub fn total_spread(&self) -> Option<Spread> {
-        Spread::of(&self.total()?)
     }
 
     /// The error that is charted: over all pixels, of the reference of this name.

@@ -10,11 +10,9 @@ use super::document::{Case, Study, Timed};
 use super::record::{Errors, Machine, Record, Role, Series, VERSION};
 use super::silhouette::regions;
 use crate::compile::{Options, Output};
-use crate::diagnostic::{Diagnostic, Place};
-use crate::node::Catalog;
 use crate::reference::picture::Watch;
 use crate::render::image_file::{Display, ToneCurve, encode_png};
-use crate::render::{AdapterSummary, ColorFormat, Gpu, MapSummary};
+use crate::render::{AdapterSummary, ColorFormat, Gpu, MapSummary, RenderError};
 use crate::studio::measure::error_map;
 use crate::studio::picture::{Aov, Exposure, draw, with_job};
 use crate::studio::settings::{Assignment, Target};
@@ -22,7 +20,7 @@ use crate::studio::stock::Stock;
 use crate::studio::trial::{Entrant, Lap, Laps, Part, Rounds, race};
 use crate::studio::truth::{self, Reference, Wanted};
 use crate::studio::weave::Weaver;
-use crate::studio::{Collected, Failure, FailureKind, Loader, Shot, Shown, Subject};
+use crate::studio::{Collected, Failure, FailureKind, Shot, Shown, Subject};
 
 /// What was measured of one cell.
 pub struct Measured {
@@ -42,8 +40,6 @@ type Pictured = (Vec<[f32; 4]>, String);
 /// Measures cells of one study.
 pub struct Runner<'a> {
     study: &'a Study,
-    catalog: &'a Catalog,
-    loader: &'a Loader,
     weaver: Weaver<'a>,
     cases: Vec<Stand>,
     stock: Stock,
@@ -60,9 +56,8 @@ impl<'a> Runner<'a> {
     pub fn new(study: &'a Study, file: &Path, weaver: Weaver<'a>) -> Result<Self, Failure> {
         let cases = check(study, file, &weaver)?;
         let rounds = Rounds { warm_up: study.warm_up, counted: study.rounds };
-        let (catalog, loader) = (weaver.catalog, weaver.loader);
         let (truths, depths, stock) = (BTreeMap::new(), BTreeMap::new(), Stock::default());
-        Ok(Self { study, catalog, loader, weaver, cases, stock, truths, depths, rounds })
+        Ok(Self { study, weaver, cases, stock, truths, depths, rounds })
     }
 
     /// What is to be done for a batch, in frames and pixels of truth, for a progress bar.
@@ -92,7 +87,7 @@ impl<'a> Runner<'a> {
                 Ok(entrant) => {
                     let key = cell.without_frame();
                     if !by_errors.contains_key(&key) {
-                        let found = self.errors(cell, gpu, cancel)?;
+                        let found = self.errors(cell, &entrant, gpu, cancel)?;
                         by_errors.insert(key.clone(), found);
                     }
                     if let Some((errors, drawn)) = by_errors.get_mut(&key) {
@@ -112,7 +107,7 @@ impl<'a> Runner<'a> {
             all.push(Measured { record, pictures });
         }
         let mut turn = 0;
-        let laps = race(&entrants, self.rounds, &self.stock, self.loader, gpu, cancel, || {
+        let laps = race(&entrants, self.rounds, &self.stock, self.weaver.loader, gpu, cancel, || {
             done(pixels(batch.cells[places[turn % places.len()]].frame));
             turn += 1;
         })?;
@@ -164,7 +159,7 @@ impl<'a> Runner<'a> {
         };
         let mut all = vec![one(place.shadow.clone(), "kind", &method.shadow, Target::Fresh)];
         let target = |kind: &str, name: &str| {
-            if choices(self.catalog, kind, name).is_some() { Target::Option } else { Target::Port }
+            if choices(self.weaver.catalog, kind, name).is_some() { Target::Option } else { Target::Port }
         };
         for (path, value) in &case.set {
             let (node, name) = path.rsplit_once('.').unwrap_or((place.light.as_str(), path));
@@ -195,7 +190,7 @@ impl<'a> Runner<'a> {
             Timed::Visibility => Output::Visibility(case.light.clone()),
         };
         let shot = self.shot(cell, output.clone())?;
-        let assets = self.stock.assets(&shot, self.loader)?;
+        let assets = self.stock.assets(&shot, self.weaver.loader)?;
         let exposure = Exposure {
             aov: Aov::Output(output),
             camera: None,
@@ -204,7 +199,7 @@ impl<'a> Runner<'a> {
             time: 0.0,
             format: ColorFormat::Half,
         };
-        let maps = with_job(&shot, &assets, &self.stock, self.loader, &exposure, |job| gpu.maps_of(job))?;
+        let maps = with_job(&shot, &assets, &self.stock, self.weaver.loader, &exposure, |job| gpu.maps_of(job))?;
         let own = |m: &&MapSummary| m.light.split('/').next() == Some(&case.light) || m.light == case.light;
         if let Some(map) = maps.iter().find(own) {
             (record.side, record.bits, record.format) = (Some(map.side), Some(map.bits), Some(map.format.to_owned()));
@@ -213,14 +208,24 @@ impl<'a> Runner<'a> {
     }
 
     /// Errors of a cell against each reference, and its pictures.
-    fn errors(&mut self, cell: &Cell, gpu: &mut Gpu, cancel: &AtomicBool) -> Result<Judged, Failure> {
+    fn errors(
+        &mut self,
+        cell: &Cell,
+        entrant: &Entrant,
+        gpu: &mut Gpu,
+        cancel: &AtomicBool,
+    ) -> Result<Judged, Failure> {
         let (mut all, mut pictures) = (BTreeMap::new(), Vec::new());
         let size = self.study.truth.size;
         let visibility = Output::Visibility(self.study.cases[cell.case].light.clone());
         if self.study.truth.references.is_empty() {
             return Ok((all, pictures));
         }
-        let seen = self.picture(cell, visibility, gpu)?;
+        // What is timed may be what is looked at.
+        let seen = match self.study.shown {
+            Timed::Visibility => self.drawn(&entrant.shot, visibility, gpu)?,
+            Timed::Radiance => self.picture(cell, visibility, gpu)?,
+        };
         if !self.depths.contains_key(&cell.case) {
             let depth = self.picture(cell, Output::Depth, gpu)?;
             self.depths.insert(cell.case, depth);
@@ -262,11 +267,15 @@ impl<'a> Runner<'a> {
 
     fn picture(&mut self, cell: &Cell, output: Output, gpu: &mut Gpu) -> Result<Vec<[f32; 4]>, Failure> {
         let shot = self.shot(cell, output.clone())?;
-        let assets = self.stock.assets(&shot, self.loader)?;
+        self.drawn(&shot, output, gpu)
+    }
+
+    fn drawn(&mut self, shot: &Shot, output: Output, gpu: &mut Gpu) -> Result<Vec<[f32; 4]>, Failure> {
+        let assets = self.stock.assets(shot, self.weaver.loader)?;
         let size = self.study.truth.size;
         let aov = Aov::Output(output);
         let exposure = Exposure { aov, camera: None, size, samples: 1, time: 0.0, format: ColorFormat::Float };
-        Ok(draw(&shot, &assets, &self.stock, self.loader, &exposure, gpu)?.pixels)
+        Ok(draw(shot, &assets, &self.stock, self.weaver.loader, &exposure, gpu)?.pixels)
     }
 
     fn truth(&self, cell: &Cell, reference: Reference, cancel: &AtomicBool) -> Result<Pictured, Failure> {
@@ -337,5 +346,5 @@ fn colors(size: (u32, u32), pixels: &[[u8; 4]]) -> Result<Vec<u8>, Failure> {
 }
 
 fn unwritable(why: &str) -> Failure {
-    vec![Diagnostic::error("ST0514", format!("a picture could not be encoded: {why}"), Place::default())].into()
+    RenderError::Job(format!("a picture could not be encoded: {why}")).into()
 }

@@ -72,8 +72,12 @@ pub fn canonical(source: &Arc<SourceText>) -> Option<String> {
 fn write(out: &mut String, node: &Node, level: usize, column: usize) {
     let whole = inline(node);
     // The cases and methods of a study are lists to be read, however short.
-    let is_list = level == 1 && matches!(&node.value, Tree::Map(entries) if !entries.is_empty());
-    let is_list = is_list || (level == 1 && matches!(&node.value, Tree::List(items) if !items.is_empty()));
+    let has_items = match &node.value {
+        Tree::Map(entries) => !entries.is_empty(),
+        Tree::List(items) => !items.is_empty(),
+        _ => false,
+    };
+    let is_list = level == 1 && has_items;
     if !is_list && (column + whole.chars().count() < WIDTH || whole.contains('\n')) {
         out.push_str(&whole);
         return;

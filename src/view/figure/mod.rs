@@ -14,6 +14,7 @@ use base64::Engine as _;
 use super::NodeView;
 use crate::compile::Compiled;
 use crate::graph::Graph;
+use crate::markup::{cut, escaped};
 
 /// Fonts of words; the first are what a picture of the drawing is made with.
 const SANS: &str = "Ubuntu, 'Ubuntu Light', Helvetica, Arial, sans-serif";
@@ -189,41 +190,9 @@ fn bold(color: &str) -> String {
     format!(r#"stroke="{color}" stroke-width="0.4""#)
 }
 
-/// A text as XML holds it; what XML cannot hold is left out.
-fn escaped(text: &str) -> String {
-    let mut out = String::with_capacity(text.len());
-    for c in text.chars() {
-        match c {
-            '<' => out.push_str("&lt;"),
-            '>' => out.push_str("&gt;"),
-            '&' => out.push_str("&amp;"),
-            '"' => out.push_str("&quot;"),
-            '\t' => out.push(' '),
-            c if c.is_control() || matches!(c, '\u{fffe}' | '\u{ffff}') => {}
-            c => out.push(c),
-        }
-    }
-    out
-}
-
-/// A text of at most so many letters.
-fn cut(text: &str, most: usize) -> String {
-    if text.chars().count() <= most {
-        text.to_owned()
-    } else {
-        text.chars().take(most.saturating_sub(1)).chain(['…']).collect()
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn nothing_breaks_out_of_the_xml() {
-        assert_eq!(escaped("a<b & \"c\"\u{7}\t>"), "a&lt;b &amp; &quot;c&quot; &gt;");
-        assert_eq!((cut("abcdef", 4), cut("abc", 4)), ("abc…".to_owned(), "abc".to_owned()));
-    }
 
     #[test]
     fn every_node_has_a_colour_and_dark_ones_white_letters() {
