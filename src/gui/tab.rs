@@ -20,6 +20,8 @@ pub(super) struct Tab {
     /// Revision that the recovery file holds.
     pub(super) recovered: u64,
     pub(super) selection: BTreeSet<String>,
+    /// Revision of which what is selected is known to be there.
+    tidied: Option<u64>,
     /// The selected link, by its ends.
     pub(super) link: Option<(End, End)>,
     /// The selected frame.
@@ -44,6 +46,7 @@ impl Tab {
             on_disk: None,
             recovered,
             selection: BTreeSet::new(),
+            tidied: None,
             link: None,
             frame: None,
             camera: Camera::default(),
@@ -71,6 +74,11 @@ impl Tab {
 
     /// Forgets what is no longer there, as after an undo.
     pub(super) fn tidy(&mut self) {
+        let revision = self.document.revision();
+        if self.tidied == Some(revision) {
+            return;
+        }
+        self.tidied = Some(revision);
         let graph = self.document.graph();
         self.selection.retain(|name| graph.nodes.contains_key(name));
         if self.link.as_ref().is_some_and(|(from, to)| !graph.links.iter().any(|l| l.from == *from && l.to == *to)) {

@@ -471,3 +471,53 @@ fn every_key_does_something_that_can_be_taken_back() {
         }
     }
 }
+
+#[test]
+fn what_is_far_away_is_still_picked() {
+    let mut bench = Bench::new(&["surfaces/bumpy_glass.ron"]);
+    let tab = bench.harness.state_mut().tab_mut().expect("a tab");
+    tab.camera.zoom = 0.1;
+    let camera = tab.camera;
+    let link = tab.graph().links[0].clone();
+    let (from, to) = (tab.cards.rect(tab.graph(), &link.from.node), tab.cards.rect(tab.graph(), &link.to.node));
+    bench.steps(2);
+    let middle = bench.harness.state().canvas.center();
+    let screen = |p: Pos2| middle + (p - camera.center) * camera.zoom;
+    bench.click(screen(from.center()));
+    assert_eq!(bench.harness.state().tab().expect("a tab").only(), Some(&*link.from.node));
+    let (begin, end) = (from.right_top() + vec2(0.0, 13.0), to.left_top() + vec2(0.0, 13.0));
+    bench.click(screen(begin + (end - begin) * 0.5));
+    let tab = bench.harness.state().tab().expect("a tab");
+    assert_eq!(tab.link, Some((link.from, link.to)));
+    assert!(tab.selection.is_empty());
+    // A box around all of them.
+    let all = tab.cards.bounds(tab.graph()).expect("nodes").expand(200.0);
+    let count = tab.graph().nodes.len();
+    bench.drag(screen(all.min), screen(all.max));
+    assert_eq!(bench.harness.state().tab().expect("a tab").selection.len(), count);
+}
+
+#[test]
+fn the_fonts_have_every_sign_that_the_window_shows() {
+    let ctx = eframe::egui::Context::default();
+    ctx.run_ui(eframe::egui::RawInput::default(), |_| {}).textures_delta.clear();
+    // Which sign stands for those that are missing is known by one that no font has.
+    let shape = |sign: char| {
+        let font = eframe::egui::FontId::proportional(12.0);
+        let galley = ctx.fonts_mut(|f| f.layout_no_wrap(sign.into(), font, eframe::egui::Color32::WHITE));
+        galley.rows[0].glyphs[0].uv_rect
+    };
+    let none = shape('\u{e000}');
+    assert_ne!(shape('a'), none);
+    let mut open = vec![Path::new(env!("CARGO_MANIFEST_DIR")).join("src/gui")];
+    let mut missing = Vec::new();
+    while let Some(path) = open.pop() {
+        if path.is_dir() {
+            open.extend(std::fs::read_dir(&path).expect("a folder").map(|f| f.expect("a file").path()));
+            continue;
+        }
+        let text = std::fs::read_to_string(&path).expect("a source");
+        missing.extend(text.chars().filter(|c| !c.is_ascii() && shape(*c) == none).map(|c| (path.clone(), c)));
+    }
+    assert!(missing.is_empty(), "{missing:?}");
+}

@@ -12,6 +12,11 @@ use egui_kittest::Harness;
 use shadetree::gui::{Editor, Options};
 use shadetree::node::Catalog;
 
+/// As in the program.
+#[cfg(feature = "mimalloc")]
+#[global_allocator]
+static ALLOCATOR: mimalloc::MiMalloc = mimalloc::MiMalloc;
+
 /// A graph of so many nodes, in rows.
 fn text(count: usize) -> String {
     let (mut nodes, mut links, mut layout) = (String::new(), String::new(), String::new());
@@ -59,12 +64,9 @@ fn main() {
         let middle = pos2(800.0, 400.0);
         told("all in view, at rest", count, (0..100).map(|_| frame(&mut harness)).collect());
         told("all in view, panned", count, panned(&mut harness, middle));
-        for _ in 0..40 {
-            harness.event(Event::PointerMoved(middle));
-            let (unit, phase) = (egui::MouseWheelUnit::Point, egui::TouchPhase::Move);
-            harness.event(Event::MouseWheel { unit, delta: vec2(0.0, 60.0), modifiers: Modifiers::NONE, phase });
-            harness.step();
-        }
+        zoom(&mut harness, middle, 8);
+        told("titles, panned", count, panned(&mut harness, middle));
+        zoom(&mut harness, middle, 32);
         told("near, panned", count, panned(&mut harness, middle));
         harness.key_press_modifiers(Modifiers::COMMAND, egui::Key::A);
         harness.step();
@@ -74,6 +76,17 @@ fn main() {
         };
         told("all nodes moved by keys", count, (0..40).map(|_| nudge(&mut harness)).collect());
     }
+}
+
+/// Turns the wheel towards a place, a quarter nearer a step.
+fn zoom(harness: &mut Harness<'_, Editor>, at: Pos2, steps: usize) {
+    for _ in 0..steps {
+        harness.event(Event::PointerMoved(at));
+        let (unit, phase) = (egui::MouseWheelUnit::Point, egui::TouchPhase::Move);
+        harness.event(Event::MouseWheel { unit, delta: vec2(0.0, 60.0), modifiers: Modifiers::NONE, phase });
+        harness.step();
+    }
+    harness.run_steps(20);
 }
 
 /// Frames while the middle button drags the canvas.

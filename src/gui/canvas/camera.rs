@@ -18,7 +18,7 @@ impl Default for Camera {
 }
 
 /// Least and greatest zoom.
-pub(in crate::gui) const ZOOM: std::ops::RangeInclusive<f32> = 0.05..=3.0;
+pub(in crate::gui) const ZOOM: std::ops::RangeInclusive<f32> = 0.02..=3.0;
 
 /// How much is drawn of each node.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]

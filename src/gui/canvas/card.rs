@@ -1,12 +1,13 @@
 //! Where the parts of a node's card lie, in points of the plane. Knows documents and no screen.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
 use eframe::egui::{Pos2, Rect, Vec2, pos2, vec2};
 
 use super::camera::at;
 use crate::graph::{End, Graph};
+use crate::hash::HashMap;
 use crate::node::Catalog;
 use crate::view::{Document, NodeView, PortView, arrange, node_view};
 
@@ -23,17 +24,42 @@ const FOOT: f32 = 8.0;
 /// Looks up the graph that a node stands for.
 pub(in crate::gui) type Subgraphs<'a> = &'a dyn Fn(&str) -> Option<Arc<Graph>>;
 
-/// What is known of the cards of a document, kept until it changes.
+/// What is known of a card for as long as the structure of the document stays.
+struct Known {
+    name: String,
+    /// Its size when it is not collapsed.
+    size: Vec2,
+    /// Family of the node.
+    category: Arc<str>,
+    muted: bool,
+}
+
+/// A card as it lies on the plane.
+#[derive(Clone, Copy)]
+pub(super) struct Lying<'a> {
+    pub(super) name: &'a str,
+    pub(super) rect: Rect,
+    /// Family of the node; empty if it is not known.
+    pub(super) category: &'a Arc<str>,
+    pub(super) muted: bool,
+    pub(super) selected: bool,
+}
+
+/// What is known of the cards of a document, kept until it changes. In the order of their names, so that walks over all
+/// of them look up none.
 #[derive(Default)]
 pub(in crate::gui) struct Cards {
     structure: Option<u64>,
     values: Option<u64>,
     thumbnails: bool,
-    sizes: BTreeMap<String, Vec2>,
+    known: Vec<Known>,
+    index: HashMap<String, usize>,
+    /// Cards at the ends of each link, in the links' order.
+    ends: Vec<Option<(usize, usize)>>,
     auto: BTreeMap<String, [f64; 2]>,
-    views: BTreeMap<String, Arc<NodeView>>,
+    views: HashMap<String, Arc<NodeView>>,
     /// Where cards lie, at one revision of the document.
-    rects: BTreeMap<String, Rect>,
+    rects: Vec<Rect>,
     revision: Option<u64>,
 }
 
@@ -47,44 +73,21 @@ impl Cards {
         thumbnails: bool,
     ) {
         let structure = document.structure_revision();
+        let graph = document.graph();
         if self.structure != Some(structure) || self.thumbnails != thumbnails {
             self.structure = Some(structure);
-            self.rects.clear();
             self.thumbnails = thumbnails;
+            self.revision = None;
             self.views.clear();
-            self.sizes.clear();
-            let graph = document.graph();
-            // Of equal kinds with equal choices the ports are counted once.
-            let mut known: BTreeMap<(&str, &BTreeMap<String, String>), usize> = BTreeMap::new();
-            for (name, node) in &graph.nodes {
-                let plain = node.graph.is_none() && node.wgsl.is_none() && catalog.get(&node.kind).is_some();
-                let rows = match known.get(&(node.kind.as_str(), &node.options)).filter(|_| plain) {
-                    Some(rows) => *rows,
-                    None => {
-                        let view =
-                            node_view(graph, catalog, name, node.graph.as_deref().and_then(subgraphs).as_deref());
-                        let rows = rows(&view);
-                        if plain {
-                            known.insert((&node.kind, &node.options), rows);
-                        }
-                        rows
-                    }
-                };
-                let picture = if thumbnails { THUMBNAIL + FOOT } else { 0.0 };
-                #[allow(clippy::cast_precision_loss, reason = "a node has few ports")]
-                let height = TITLE + rows as f32 * ROW + FOOT + picture;
-                self.sizes.insert(name.clone(), vec2(WIDTH, height));
-            }
             self.auto.clear();
+            self.know(graph, catalog, subgraphs);
         }
-        if document.graph().nodes.keys().any(|n| !document.graph().layout.contains_key(n) && !self.auto.contains_key(n))
-        {
-            self.auto = crate::view::placed(document.graph(), &|name| self.size_of(document.graph(), name));
-        }
-        if self.revision != Some(document.revision()) || self.rects.is_empty() {
+        if self.revision != Some(document.revision()) {
             self.revision = Some(document.revision());
-            let graph = document.graph();
-            self.rects = graph.nodes.keys().map(|name| (name.clone(), self.placed(graph, name))).collect();
+            if graph.nodes.keys().any(|n| !graph.layout.contains_key(n) && !self.auto.contains_key(n)) {
+                self.auto = crate::view::placed(graph, &|name| self.size_of(graph, name));
+            }
+            self.place(graph);
         }
         let values = document.value_revision();
         if self.values != Some(values) {
@@ -93,9 +96,50 @@ impl Cards {
         }
     }
 
+    fn know(&mut self, graph: &Graph, catalog: &Catalog, subgraphs: Subgraphs<'_>) {
+        // Of equal kinds with equal choices the ports are counted once.
+        let mut counted: BTreeMap<(&str, &BTreeMap<String, String>), (usize, Arc<str>)> = BTreeMap::new();
+        self.known.clear();
+        for (name, node) in &graph.nodes {
+            let plain = node.graph.is_none() && node.wgsl.is_none() && catalog.get(&node.kind).is_some();
+            let (rows, category) = match counted.get(&(node.kind.as_str(), &node.options)).filter(|_| plain) {
+                Some(found) => found.clone(),
+                None => {
+                    let view = node_view(graph, catalog, name, node.graph.as_deref().and_then(subgraphs).as_deref());
+                    let found = (rows(&view), Arc::from(view.category.as_str()));
+                    if plain {
+                        counted.insert((&node.kind, &node.options), found.clone());
+                    }
+                    found
+                }
+            };
+            let picture = if self.thumbnails { THUMBNAIL + FOOT } else { 0.0 };
+            #[allow(clippy::cast_precision_loss, reason = "a node has few ports")]
+            let height = TITLE + rows as f32 * ROW + FOOT + picture;
+            self.known.push(Known { name: name.clone(), size: vec2(WIDTH, height), category, muted: node.muted });
+        }
+        self.index = self.known.iter().enumerate().map(|(i, card)| (card.name.clone(), i)).collect();
+        let card = |end: &End| self.index.get(&end.node).copied();
+        self.ends = graph.links.iter().map(|l| card(&l.from).zip(card(&l.to))).collect();
+    }
+
+    fn place(&mut self, graph: &Graph) {
+        // Nodes and places are sorted alike.
+        let mut places = graph.layout.iter().peekable();
+        self.rects.clear();
+        for card in &self.known {
+            while places.next_if(|(name, _)| **name < card.name).is_some() {}
+            let place = places.next_if(|(name, _)| **name == card.name).map(|(_, place)| *place);
+            let place = place.or_else(|| self.auto.get(&card.name).copied()).unwrap_or_default();
+            let collapsed = !graph.collapsed.is_empty() && graph.collapsed.contains(&card.name);
+            let size = if collapsed { vec2(card.size.x, TITLE) } else { card.size };
+            self.rects.push(Rect::from_min_size(at(place), size));
+        }
+    }
+
     /// Size of a card in points of the plane.
     pub(in crate::gui) fn size(&self, graph: &Graph, name: &str) -> Vec2 {
-        let size = self.sizes.get(name).copied().unwrap_or(vec2(WIDTH, TITLE));
+        let size = self.index.get(name).map_or(vec2(WIDTH, TITLE), |i| self.known[*i].size);
         if graph.collapsed.contains(name) { vec2(size.x, TITLE) } else { size }
     }
 
@@ -107,12 +151,26 @@ impl Cards {
 
     /// Where a card lies: as it was when this was last brought up to date, for those that were there.
     pub(in crate::gui) fn rect(&self, graph: &Graph, name: &str) -> Rect {
-        self.rects.get(name).copied().unwrap_or_else(|| self.placed(graph, name))
+        let found = self.index.get(name).and_then(|i| self.rects.get(*i));
+        found.copied().unwrap_or_else(|| {
+            let place = graph.layout.get(name).or_else(|| self.auto.get(name)).copied().unwrap_or_default();
+            Rect::from_min_size(at(place), self.size(graph, name))
+        })
     }
 
-    fn placed(&self, graph: &Graph, name: &str) -> Rect {
-        let place = graph.layout.get(name).or_else(|| self.auto.get(name)).copied().unwrap_or_default();
-        Rect::from_min_size(at(place), self.size(graph, name))
+    /// All cards as they lay when this was last brought up to date, by name.
+    pub(super) fn lying<'a>(&'a self, selection: &'a BTreeSet<String>) -> impl Iterator<Item = Lying<'a>> {
+        let mut chosen = selection.iter().peekable();
+        self.known.iter().zip(&self.rects).map(move |(card, rect)| {
+            while chosen.next_if(|name| **name < card.name).is_some() {}
+            let selected = chosen.next_if(|name| **name == card.name).is_some();
+            Lying { name: &card.name, rect: *rect, category: &card.category, muted: card.muted, selected }
+        })
+    }
+
+    /// Where the cards lie at the ends of each link of the document that this was last brought up to date with.
+    pub(super) fn ends(&self) -> impl Iterator<Item = Option<(Rect, Rect)>> {
+        self.ends.iter().map(|ends| ends.map(|(from, to)| (self.rects[from], self.rects[to])))
     }
 
     /// What a card shows.
@@ -135,7 +193,7 @@ impl Cards {
     /// The rectangle around all cards and frames.
     pub(in crate::gui) fn bounds(&self, graph: &Graph) -> Option<Rect> {
         let frames = graph.frames.values().map(|f| Rect::from_min_size(at(f.at), at(f.size).to_vec2()));
-        graph.nodes.keys().map(|name| self.rect(graph, name)).chain(frames).reduce(Rect::union)
+        self.rects.iter().copied().chain(frames).reduce(Rect::union)
     }
 
     /// New places for all nodes.

@@ -64,41 +64,19 @@ pub(super) fn nodes(
 ) {
     for card in &seen.cards {
         let rect = view.rect(card.rect);
-        let graph = tab.document.graph();
-        let Some(node) = graph.nodes.get(&card.name) else { continue };
-        let selected = tab.selection.contains(&card.name);
+        let selected = card.selected;
         let found: &[Diagnostic] = around.problems.get(&card.name).map_or(&[], Vec::as_slice);
-        let category = match &card.view {
-            Some(view) => view.category.clone(),
-            None if node.graph.is_some() => "subgraph".into(),
-            None => around
-                .catalog
-                .get(&node.kind)
-                .and_then(|f| f.header().ok())
-                .map_or_else(String::new, |h| h.category.clone()),
-        };
-        let fade = if node.muted { 0.45 } else { 1.0 };
-        let title = theme::category(&category, look.dark).gamma_multiply(fade);
+        let fade = if card.muted { 0.45 } else { 1.0 };
+        let title = theme::category(&card.category, look.dark).gamma_multiply(fade);
         let zoom = view.camera.zoom;
         let round = CornerRadius::same(if zoom > 0.3 { 6 } else { 1 });
-        let body = if view.detail() == Detail::Box { title } else { look.card.gamma_multiply(fade.max(0.6)) };
-        painter.rect_filled(rect, round, body);
-        if view.detail() != Detail::Box {
-            let bar = Rect::from_min_max(rect.min, pos2(rect.right(), rect.top() + TITLE * zoom));
-            let flat = if card.rect.height() > TITLE + 1.0 { 0 } else { 6 };
-            painter.rect_filled(bar, CornerRadius { nw: 6, ne: 6, sw: flat, se: flat }, title);
-            let size = if view.detail() == Detail::Full { 13.5 * zoom } else { (13.5 * zoom).max(9.0) };
-            let room = bar.width() - 16.0 * zoom;
-            text(
-                painter,
-                bar.left_center() + vec2(10.0 * zoom, 0.0),
-                Align2::LEFT_CENTER,
-                &card.name,
-                size,
-                room,
-                look.text,
-            );
-        }
+        painter.rect_filled(rect, round, look.card.gamma_multiply(fade.max(0.6)));
+        let bar = Rect::from_min_max(rect.min, pos2(rect.right(), rect.top() + TITLE * zoom));
+        let flat = if card.rect.height() > TITLE + 1.0 { 0 } else { 6 };
+        painter.rect_filled(bar, CornerRadius { nw: 6, ne: 6, sw: flat, se: flat }, title);
+        let size = if view.detail() == Detail::Full { 13.5 * zoom } else { (13.5 * zoom).max(9.0) };
+        let (middle, room) = (bar.left_center() + vec2(10.0 * zoom, 0.0), bar.width() - 16.0 * zoom);
+        text(painter, middle, Align2::LEFT_CENTER, &card.name, size, room, look.text);
         if let Some(ports) = &card.view {
             details(ui, painter, tab, around, view, card, ports, under, look);
         }
@@ -116,26 +94,24 @@ pub(super) fn nodes(
             painter.circle(at, 8.0 * zoom.max(0.5), color, Stroke::new(1.0, look.outline));
             text(painter, at, Align2::CENTER_CENTER, "!", 12.0 * zoom.max(0.5), 20.0, Color32::WHITE);
         }
-        if view.detail() != Detail::Box {
-            accessible(ui, card, rect, selected, node.muted, &category, found);
-        }
+        accessible(ui, card, rect, found);
     }
 }
 
 /// What assistive tools are told of a card, and what a person sees who rests on its title.
-fn accessible(ui: &Ui, card: &Card, rect: Rect, selected: bool, muted: bool, category: &str, found: &[Diagnostic]) {
+fn accessible(ui: &Ui, card: &Card, rect: Rect, found: &[Diagnostic]) {
     let response = ui.interact(rect, ui.id().with(("node", &card.name)), egui::Sense::hover());
     let mut name = format!("Node {}", card.name);
-    if !category.is_empty() {
-        name.push_str(&format!(", {category}"));
+    if !card.category.is_empty() {
+        name.push_str(&format!(", {}", card.category));
     }
-    if muted {
+    if card.muted {
         name.push_str(", muted");
     }
     if !found.is_empty() {
         name.push_str(&format!(", {} problems", found.len()));
     }
-    response.widget_info(|| egui::WidgetInfo::selected(egui::WidgetType::Other, true, selected, &name));
+    response.widget_info(|| egui::WidgetInfo::selected(egui::WidgetType::Other, true, card.selected, &name));
 }
 
 #[allow(clippy::too_many_arguments, reason = "what is drawn, where, and how it looks")]

@@ -7,15 +7,23 @@ use eframe::egui::{Pos2, Rect, vec2};
 use super::Surroundings;
 use super::camera::{Detail, View, at};
 use super::card::{ROW, TITLE, anchor, inputs, outputs};
+use super::far;
 use super::wires::{self, Curve};
 use crate::graph::End;
 use crate::gui::tab::Tab;
 use crate::view::NodeView;
 
+/// How near a pointer is to a link that it means, in points of the screen.
+const NEAR: f32 = 7.0;
+
 /// A card that is seen, in points of the plane.
 pub(super) struct Card {
     pub(super) name: String,
     pub(super) rect: Rect,
+    pub(super) selected: bool,
+    pub(super) muted: bool,
+    /// Family of the node; empty if it is not known.
+    pub(super) category: Arc<str>,
     /// Only where ports are drawn.
     pub(super) view: Option<Arc<NodeView>>,
 }
@@ -32,6 +40,7 @@ pub(super) struct Wire {
 pub(super) struct Seen {
     /// Those drawn last come last.
     pub(super) cards: Vec<Card>,
+    /// None from afar.
     pub(super) wires: Vec<Wire>,
 }
 
@@ -71,37 +80,52 @@ pub(super) fn seen(tab: &mut Tab, around: &Surroundings<'_>, view: &View) -> See
     let seen = view.seen().expand(8.0);
     let detail = view.detail();
     let graph = tab.document.graph();
-    let mut cards = Vec::new();
-    for name in graph.nodes.keys() {
-        let rect = tab.cards.rect(graph, name);
-        if rect.intersects(seen) {
-            let ports = (detail == Detail::Full).then(|| tab.cards.view(graph, around.catalog, around.subgraphs, name));
-            cards.push(Card { name: name.clone(), rect, view: ports });
+    let (mut cards, mut above) = (Vec::new(), Vec::new());
+    for card in tab.cards.lying(&tab.selection).filter(|c| c.rect.intersects(seen)) {
+        // Selected cards lie above the others.
+        let list = if card.selected { &mut above } else { &mut cards };
+        list.push(Card {
+            name: card.name.to_owned(),
+            rect: card.rect,
+            selected: card.selected,
+            muted: card.muted,
+            category: card.category.clone(),
+            view: None,
+        });
+    }
+    cards.append(&mut above);
+    if detail == Detail::Full {
+        for card in &mut cards {
+            card.view = Some(tab.cards.view(graph, around.catalog, around.subgraphs, &card.name));
         }
     }
-    // Selected cards lie above the others.
-    cards.sort_by_key(|card| tab.selection.contains(&card.name));
+    let wires = if detail == Detail::Box { Vec::new() } else { wires_seen(tab, around, view, seen) };
+    Seen { cards, wires }
+}
+
+/// The links of which something may be seen.
+fn wires_seen(tab: &mut Tab, around: &Surroundings<'_>, view: &View, seen: Rect) -> Vec<Wire> {
+    let full = view.detail() == Detail::Full;
+    let graph = tab.document.graph();
+    let near: Vec<_> = std::iter::zip(&graph.links, tab.cards.ends())
+        .filter_map(|(link, ends)| ends.map(|(from, to)| (link, from, to)))
+        .filter(|(_, from, to)| from.union(*to).expand(80.0).intersects(seen))
+        .collect();
     let mut wires = Vec::new();
-    for link in &graph.links {
-        let (from, to) = (tab.cards.rect(graph, &link.from.node), tab.cards.rect(graph, &link.to.node));
-        if !from.union(to).expand(80.0).intersects(seen) {
-            continue;
-        }
+    for (link, from, to) in near {
         let ports = |end: &End, cards: &mut super::Cards| {
-            (detail == Detail::Full && end.port.is_some())
-                .then(|| cards.view(graph, around.catalog, around.subgraphs, &end.node))
+            (full && end.port.is_some()).then(|| cards.view(graph, around.catalog, around.subgraphs, &end.node))
         };
         let (from_view, to_view) = (ports(&link.from, &mut tab.cards), ports(&link.to, &mut tab.cards));
         let begin = view.to_screen(anchor(from, from_view.as_deref(), &link.from, true));
         let end = view.to_screen(anchor(to, to_view.as_deref(), &link.to, false));
         let bends = graph.waypoints.get(&(link.from.clone(), link.to.clone()));
-        let bends = bends.into_iter().flatten().map(|p| view.to_screen(at(*p)));
-        let curve = wires::curve(begin, end, bends, detail == Detail::Box);
-        if detail != Detail::Full || curve.bounds().expand(4.0).intersects(view.screen) {
+        let curve = wires::curve(begin, end, bends.into_iter().flatten().map(|p| view.to_screen(at(*p))), false);
+        if !full || curve.bounds().expand(4.0).intersects(view.screen) {
             wires.push(Wire { from: link.from.clone(), to: link.to.clone(), curve });
         }
     }
-    Seen { cards, wires }
+    wires
 }
 
 /// Finds what lies under a point of the screen.
@@ -124,8 +148,13 @@ pub(super) fn under(tab: &Tab, seen: &Seen, view: &View, p: Pos2) -> Under {
             return Under::Bend { from: from.clone(), to: to.clone(), index };
         }
     }
+    if view.detail() == Detail::Box
+        && let Some(link) = far::link_at(tab, view, p, NEAR)
+    {
+        return Under::Wire { from: link.from.clone(), to: link.to.clone() };
+    }
     let near = seen.wires.iter().map(|w| (w.curve.distance(p), w)).min_by(|a, b| a.0.total_cmp(&b.0));
-    if let Some((_, wire)) = near.filter(|(d, _)| *d < 7.0) {
+    if let Some((_, wire)) = near.filter(|(d, _)| *d < NEAR) {
         return Under::Wire { from: wire.from.clone(), to: wire.to.clone() };
     }
     for (name, frame) in graph.frames.iter().rev() {
@@ -188,7 +217,7 @@ mod tests {
     #[test]
     fn a_title_is_the_pin_of_the_whole_node() {
         let rect = Rect::from_min_size(pos2(0.0, 0.0), vec2(200.0, 100.0));
-        let card = Card { name: "a".into(), rect, view: None };
+        let card = Card { name: "a".into(), rect, selected: false, muted: false, category: "".into(), view: None };
         let view = NodeView::default();
         assert_eq!(pin(&card, &view, pos2(199.0, 5.0)), Some((End::node("a"), true)));
         assert_eq!(pin(&card, &view, pos2(-4.0, 20.0)), Some((End::node("a"), false)));

@@ -199,7 +199,9 @@ fn click(tab: &mut Tab, around: &Surroundings<'_>, under: Option<&Under>, comman
 fn bend(tab: &mut Tab, seen: &Seen, from: &End, to: &End, p: Pos2, plane: Pos2) {
     let mut bends = tab.graph().waypoints.get(&(from.clone(), to.clone())).cloned().unwrap_or_default();
     let wire = seen.wires.iter().find(|w| w.from == *from && w.to == *to);
-    let index = wire.map_or(bends.len(), |w| w.curve.piece_at(p)).min(bends.len());
+    // From afar there is none to be bent.
+    let Some(wire) = wire else { return };
+    let index = wire.curve.piece_at(p).min(bends.len());
     bends.insert(index, position(plane));
     let _ = tab.document.change("Bend link", Edit::SetWaypoints(from.clone(), to.clone(), bends));
 }
@@ -271,8 +273,7 @@ fn drag(ui: &Ui, tab: &mut Tab, around: &Surroundings<'_>, view: &View, p: Pos2,
         }
         Gesture::Box { from, before } => {
             let area = Rect::from_two_pos(*from, plane);
-            let graph = tab.document.graph();
-            let inside = graph.nodes.keys().filter(|n| tab.cards.rect(graph, n).intersects(area)).cloned();
+            let inside = tab.cards.lying(before).filter(|card| card.rect.intersects(area)).map(|c| c.name.to_owned());
             tab.selection = before.iter().cloned().chain(inside).collect();
             tab.link = None;
             Ok(())
@@ -353,7 +354,7 @@ fn drop_on_link(tab: &mut Tab, around: &Surroundings<'_>, seen: &Seen, name: &st
                 wishes.push(Wish::Say(error.to_string()));
             }
         }
-        None => wishes.push(Wish::Say(format!("`{name}` does not fit into {} → {}", wire.from, wire.to))),
+        None => wishes.push(Wish::Say(format!("`{name}` does not fit into {} -> {}", wire.from, wire.to))),
     }
 }
 

@@ -3,6 +3,7 @@
 use eframe::egui::{self, Rect, Sense, Stroke, StrokeKind, Ui, vec2};
 
 use super::camera::View;
+use super::far;
 use crate::gui::tab::Tab;
 use crate::gui::theme::Look;
 
@@ -19,11 +20,11 @@ pub(super) fn show(ui: &Ui, tab: &mut Tab, view: &View, look: &Look) {
     painter.rect(place, 4.0, look.card.gamma_multiply(0.92), Stroke::new(1.0, look.outline), StrokeKind::Outside);
     let on_map =
         |r: Rect| Rect::from_min_max(place.min + (r.min - all.min) * scale, place.min + (r.max - all.min) * scale);
-    let graph = tab.document.graph();
-    for name in graph.nodes.keys() {
-        let color = if tab.selection.contains(name) { look.selected } else { look.weak };
-        painter.rect_filled(on_map(tab.cards.rect(graph, name)).expand(0.5), 0.0, color);
-    }
+    let boxes = tab.cards.lying(&tab.selection).map(|card| {
+        let color = if card.selected { look.selected } else { look.weak };
+        (on_map(card.rect).expand(0.5), color)
+    });
+    far::draw_map(&painter, boxes);
     painter.rect_stroke(on_map(view.seen()).intersect(place), 0.0, Stroke::new(1.5, look.selected), StrokeKind::Inside);
     let response = ui.interact(place, ui.id().with("minimap"), Sense::click_and_drag());
     response.widget_info(|| egui::WidgetInfo::labeled(egui::WidgetType::Other, true, "Map of the graph"));

@@ -4,6 +4,7 @@
 mod camera;
 mod card;
 mod draw;
+mod far;
 mod frames;
 mod hit;
 mod input;
@@ -25,7 +26,7 @@ use crate::graph::End;
 use crate::node::Catalog;
 use crate::preview::Resolved;
 use crate::view::Pending;
-use camera::View;
+use camera::{Detail, View};
 
 /// What the canvas shows besides the document.
 pub(super) struct Surroundings<'a> {
@@ -103,8 +104,13 @@ pub(super) fn show(ui: &mut Ui, tab: &mut Tab, around: &Surroundings<'_>) -> (eg
     let painter = ui.painter_at(screen);
     draw::background(&painter, &view, &look);
     frames::draw(ui, &painter, tab, &view, &look);
-    wires::draw(ui, &painter, tab, around, &view, &seen, under.as_ref(), &look);
-    draw::nodes(ui, &painter, tab, around, &view, &seen, under.as_ref(), &look);
+    if view.detail() == Detail::Box {
+        far::draw_links(&painter, tab, &view, &look);
+        far::draw_cards(&painter, tab, around, &view, &look);
+    } else {
+        wires::draw(ui, &painter, tab, around, &view, &seen, under.as_ref(), &look);
+        draw::nodes(ui, &painter, tab, around, &view, &seen, under.as_ref(), &look);
+    }
     input::draw(ui, &painter, tab, &view, &seen, &look);
     if around.minimap && !tab.graph().nodes.is_empty() {
         minimap::show(ui, tab, &view, &look);

@@ -132,9 +132,9 @@ fn color(tab: &mut Tab, around: &Surroundings<'_>, wire: &Wire, look: &Look) -> 
 
 /// What a person is told of a link.
 pub(super) fn told(from: &End, to: &End, found: &[&Resolved]) -> String {
-    let mut text = format!("{from} → {to}");
+    let mut text = format!("{from} -> {to}");
     for wire in found {
-        text.push_str(&format!("\n{}.{} → {}.{}", wire.from.0, wire.from.1, wire.to.0, wire.to.1));
+        text.push_str(&format!("\n{}.{} -> {}.{}", wire.from.0, wire.from.1, wire.to.0, wire.to.1));
         if !wire.conversions.is_empty() {
             text.push_str(&format!("  through {} (cost {})", wire.conversions.join(", "), wire.cost));
         }
@@ -161,10 +161,6 @@ pub(super) fn draw(
     let detail = view.detail();
     let zoom = view.camera.zoom;
     for wire in &seen.wires {
-        if detail == Detail::Box {
-            wire.curve.draw(painter, Stroke::new(1.0, look.weak.gamma_multiply(0.6)));
-            continue;
-        }
         let chosen = tab.link.as_ref().is_some_and(|(from, to)| *from == wire.from && *to == wire.to);
         let hovered = matches!(under, Some(Under::Wire { from, to }) if *from == wire.from && *to == wire.to);
         let color = color(tab, around, wire, look);
