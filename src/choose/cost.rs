@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 use super::candidate::Candidate;
 
 /// Version of the tables that are written. Others are not read.
-pub const VERSION: u32 = 2;
+pub const VERSION: u32 = 3;
 /// Rounds of the fit.
 const ROUNDS: usize = 4000;
 
@@ -37,7 +37,7 @@ pub enum Share {
 pub type Work = BTreeMap<Share, BTreeMap<String, f64>>;
 
 /// What a picture asks of any candidate.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Load {
     /// Pixels of the picture.
     pub pixels: f64,
@@ -47,6 +47,8 @@ pub struct Load {
     pub triangles: f64,
     /// Views of the light when it is not cut into parts: six of a point light.
     pub views: u32,
+    /// By the number of parts that the view is cut into: the share of all texels that an occluder covers.
+    pub covered: BTreeMap<u32, f64>,
 }
 
 /// The work of a candidate whose pixels make so many reads along their footprints.
@@ -60,7 +62,9 @@ pub fn work(candidate: &Candidate, taps: f64, load: &Load) -> Work {
         *work.entry(share).or_default().entry(name).or_default() += amount;
     };
     add(Share::Light, "light pass".into(), views);
-    add(Share::Light, format!("draw {map}"), texels);
+    let covered = load.covered.get(&candidate.parts).copied().unwrap_or(1.0);
+    add(Share::Light, format!("clear {map}"), texels);
+    add(Share::Light, format!("draw {map}"), texels * covered);
     add(Share::Light, "triangle".into(), load.triangles * views * million);
     if candidate.blur > 1 {
         add(Share::Filter, "blur pass".into(), 2.0 * views);

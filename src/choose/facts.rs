@@ -4,8 +4,9 @@
 use glam::DVec2;
 
 use super::filter::{Filter, disc, read};
+use super::predict::cut;
 use super::pyramid::Pyramid;
-use super::receiver::{Receivers, Site, looked};
+use super::receiver::{Receivers, Site, Stratum, looked};
 use super::texels::{Plane, Texels};
 use crate::reference::{Projection, Source, worst_bleeding};
 
@@ -84,7 +85,9 @@ pub fn facts(site: &Site<'_>, receivers: &Receivers) -> Facts {
         if seen.samples.iter().any(|s| s.depth > seen.receiver + reach && s.weight > 0.01) {
             behind += receiver.weight;
         }
-        if let Some(width) = penumbra(&site.light.source, receiver.turn, &plane, map).filter(|_| receiver.edge) {
+        if let Some(width) =
+            penumbra(&site.light.source, receiver.turn, &plane, map).filter(|_| receiver.stratum != Stratum::Other)
+        {
             penumbrae.push((width, receiver.weight));
         }
     }
@@ -110,6 +113,21 @@ pub fn facts(site: &Site<'_>, receivers: &Receivers) -> Facts {
         seen,
         split_demand,
     }
+}
+
+/// The share of all texels of a light's maps that an occluder covers, where its view is cut into so many parts.
+pub fn covered(site: &Site<'_>, parts: u32) -> f64 {
+    let views = looked(site.world, &cut(site, PYRAMID, parts), site.far);
+    let (mut covered, mut all) = (0.0, 0.0);
+    for view in views {
+        let mut map = Texels::new(site.world, view, PYRAMID);
+        for i in 0..i64::from(PYRAMID * PYRAMID) {
+            let texel = map.at(i % i64::from(PYRAMID), i / i64::from(PYRAMID));
+            covered += if texel.distance.is_finite() { 1.0 } else { 0.0 };
+            all += 1.0;
+        }
+    }
+    covered / f64::max(all, 1.0)
 }
 
 /// Width of the penumbra at a receiver, in parts of the map's side, where there is an occluder around; similar triangles.

@@ -22,13 +22,13 @@ mod texels;
 
 pub use candidate::{Candidate, Demand, MODELS, Model, candidates};
 pub use cost::{CostTable, Load, Share, VERSION, Work, work};
-pub use facts::{Facts, facts};
+pub use facts::{Facts, covered, facts};
 pub use filter::{Filter, Sample, Seen};
 pub use judge::{Judge, Storage, lit};
 pub use plan::{Decision, Needless, Priced, Verdict, Wish, decisions, holds, ranked, unmodelled};
 pub use predict::{Metric, Outlook, cut, predict};
 pub use pyramid::{Cell, Pyramid};
-pub use receiver::{Effort, Receiver, Receivers, Site, looked, receivers};
+pub use receiver::{Effort, Receiver, Receivers, Site, Stratum, looked, receivers};
 pub use texels::{Looked, Plane, Texel, Texels};
 
 /// What each code of choosing means, for `shadetree explain`.

@@ -7,7 +7,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use super::candidate::Candidate;
 use super::filter::{Filter, Seen, read};
 use super::judge::{Judge, lit, searched};
-use super::receiver::{Receivers, Site, looked};
+use super::receiver::{Receivers, Site, Stratum, looked};
 use super::texels::{Plane, Texels};
 use crate::reference::picture::Watch;
 use crate::reference::{Cut, Light};
@@ -131,7 +131,9 @@ fn judge(
         }
         let view = light.view_of(receiver.point.position).filter(|_| receiver.point.receives);
         let (Some(view), known) = (view, receiver.truth.error.powi(2)) else {
-            errors.iter_mut().for_each(|e| e.add(1.0 - receiver.truth.mean, 0.0, receiver.weight, receiver.edge, 1.0));
+            errors
+                .iter_mut()
+                .for_each(|e| e.add(1.0 - receiver.truth.mean, 0.0, receiver.weight, receiver.stratum, 1.0));
             continue;
         };
         let plane = Plane::of(&views[view], &receiver.point);
@@ -147,7 +149,7 @@ fn judge(
                 (_, None) => 1.0,
             };
             let taps = seen.map_or(1.0, |s| s.taps);
-            errors.add(value - receiver.truth.mean, known, receiver.weight, receiver.edge, taps);
+            errors.add(value - receiver.truth.mean, known, receiver.weight, receiver.stratum, taps);
         }
     }
     Some(errors.iter().map(|e| e.summary(metric)).collect())
@@ -156,15 +158,15 @@ fn judge(
 /// Errors of one candidate, with what each stands for.
 #[derive(Clone, Debug, Default)]
 struct Errors {
-    /// Error, the variance that is the truth's own, weight, and whether it was drawn near an edge.
-    all: Vec<(f64, f64, f64, bool)>,
+    /// Error, the variance that is the truth's own, weight, and what it was drawn from.
+    all: Vec<(f64, f64, f64, Stratum)>,
     taps: f64,
     weight: f64,
 }
 
 impl Errors {
-    fn add(&mut self, error: f64, known: f64, weight: f64, edge: bool, taps: f64) {
-        self.all.push((if error.is_finite() { error } else { 1.0 }, known, weight, edge));
+    fn add(&mut self, error: f64, known: f64, weight: f64, stratum: Stratum, taps: f64) {
+        self.all.push((if error.is_finite() { error } else { 1.0 }, known, weight, stratum));
         self.taps += taps * weight;
         self.weight += weight;
     }
@@ -187,20 +189,23 @@ impl Errors {
         (error, bound * (1.0 + UNKNOWN.0) + UNKNOWN.1, taps)
     }
 
-    /// Weighted mean of something, and its standard error: the sum over both strata.
+    /// Weighted mean of something, and its standard error: the sum over all strata. Near edges a few receivers may be quite
+    /// wrong that none was drawn of: one more that is half wrong is thought of.
     fn mean(&self, of: &dyn Fn(f64, f64) -> f64) -> (f64, f64) {
         let total = self.weight.max(1e-12);
         let mean = self.all.iter().map(|(e, known, w, _)| of(*e, *known) * w).sum::<f64>() / total;
-        let variance: f64 = [true, false]
+        let variance: f64 = Stratum::ALL
             .into_iter()
-            .map(|edge| {
-                let own = || self.all.iter().filter(move |a| a.3 == edge);
+            .map(|stratum| {
+                let own = || self.all.iter().filter(move |a| a.3 == stratum);
                 let (count, weight) = (own().count() as f64, own().map(|a| a.2).sum::<f64>() / total);
                 if count < 2.0 {
                     return 0.0;
                 }
                 let middle = own().map(|a| of(a.0, a.1)).sum::<f64>() / count;
-                let spread = own().map(|a| (of(a.0, a.1) - middle).powi(2)).sum::<f64>() / (count - 1.0);
+                let unseen = if stratum == Stratum::Other { 0.0 } else { of(0.5, 0.0) };
+                let spread = own().map(|a| (of(a.0, a.1) - middle).powi(2)).sum::<f64>() + (unseen - middle).powi(2);
+                let spread = spread / (count - 1.0);
                 weight * weight * spread / count
             })
             .sum();
@@ -227,13 +232,13 @@ mod tests {
     use super::*;
 
     #[test]
-    fn errors_are_weighted_and_their_uncertainty_is_that_of_both_strata() {
+    fn errors_are_weighted_and_their_uncertainty_is_that_of_all_strata() {
         let mut errors = Errors::default();
-        for i in 0..100 {
-            errors.add(if i % 2 == 0 { 0.2 } else { -0.2 }, 0.0, 0.001, true, 3.0);
+        for i in 0..400 {
+            errors.add(if i % 2 == 0 { 0.2 } else { -0.2 }, 0.0, 0.000_25, Stratum::Edge, 3.0);
         }
         for _ in 0..50 {
-            errors.add(0.0, 0.0, 0.018, false, 1.0);
+            errors.add(0.0, 0.0, 0.018, Stratum::Other, 1.0);
         }
         let (error, bound, taps) = errors.summary(Metric::Rms);
         assert!((error - 0.2 * 0.1_f64.sqrt()).abs() < 1e-9, "{error}");
@@ -247,7 +252,7 @@ mod tests {
     #[test]
     fn what_is_not_known_of_the_truth_is_no_error_of_the_candidate() {
         let mut errors = Errors::default();
-        (0..10).for_each(|_| errors.add(0.05, 0.05 * 0.05, 0.1, true, 1.0));
+        (0..10).for_each(|_| errors.add(0.05, 0.05 * 0.05, 0.1, Stratum::Edge, 1.0));
         assert!(errors.summary(Metric::Rms).0 < 1e-9);
     }
 }

@@ -39,7 +39,7 @@ pub(super) struct Choose {
     /// Say why, decision by decision
     #[arg(long)]
     pub(super) explain: bool,
-    /// Render the choice and compare it with the truth; where the bound does not hold, go on to the next
+    /// Render the choice and compare it with the truth, and so what may be cheaper or, where the bound does not hold, better
     #[arg(long)]
     pub(super) verify: bool,
     /// Measure what the bounds cannot separate, choose from what was measured, and show the Pareto front

@@ -1,7 +1,8 @@
 //! Chooses shadows for scenes drawn at random, verifies each choice, and measures the other candidates for it, in turn:
 //! does the bound hold, and is the choice among the cheapest that hold it?
 //!
-//! `cargo run --release --example choose_random -- --scenes 200 --seed 1`. Prints a line a scene, then the misses.
+//! `cargo run --release --example choose_random -- --scenes 200 --seed 1`. Prints a line a scene, then the misses. With
+//! `--write FOLDER` it writes the scenes there and does no more.
 #![allow(clippy::print_stdout, clippy::print_stderr, reason = "what it finds is what it is for")]
 
 use std::sync::atomic::AtomicBool;
@@ -31,7 +32,7 @@ const MEASURED: usize = 14;
 const TOLERANCE: f64 = 1.25;
 
 fn main() {
-    let (mut scenes, mut seed, mut first, mut cache) = (200, 1, 0, None);
+    let (mut scenes, mut seed, mut first, mut cache, mut folder) = (200, 1, 0, None, None);
     let mut arguments = std::env::args().skip(1);
     while let Some(name) = arguments.next() {
         let value = arguments.next().unwrap_or_default();
@@ -40,16 +41,36 @@ fn main() {
             "--seed" => seed = value.parse().unwrap_or(seed),
             "--first" => first = value.parse().unwrap_or(first),
             "--costs" => cache = Some(std::path::PathBuf::from(value)),
+            "--write" => folder = Some(std::path::PathBuf::from(value)),
             _ => {
-                eprintln!("unknown argument `{name}`: --scenes N --seed N --first N --costs FILE");
+                eprintln!("unknown argument `{name}`: --scenes N --seed N --first N --costs FILE --write FOLDER");
                 std::process::exit(2);
             }
         }
+    }
+    if let Some(folder) = folder {
+        if let Err(error) = written(scenes, seed, first, &folder) {
+            eprintln!("{}: {error}", folder.display());
+            std::process::exit(3);
+        }
+        return;
     }
     if let Err(failure) = run(scenes, seed, first, cache.as_deref()) {
         failure.diagnostics.iter().for_each(|d| eprintln!("{}", shadetree::report::text(d, false)));
         std::process::exit(1);
     }
+}
+
+/// Writes the scenes instead, each into a folder of its number, so that one can be looked at alone.
+fn written(scenes: u64, seed: u64, first: u64, folder: &std::path::Path) -> std::io::Result<()> {
+    for number in first..first + scenes {
+        let folder = folder.join(number.to_string());
+        std::fs::create_dir_all(&folder)?;
+        for (path, text) in random_scenes::drawn(seed, number).texts {
+            std::fs::write(folder.join(path.file_name().unwrap_or_default()), &*text)?;
+        }
+    }
+    Ok(())
 }
 
 /// What became of one scene.

@@ -22,12 +22,37 @@ use crate::studio::weave::{Known, Weaver};
 /// The scenes: a spotlight over a few things, and the sun over a long ground, cut into parts.
 const SPOT: &str = include_str!("spot.ron");
 const SUN: &str = include_str!("sun.ron");
-/// Sides of maps and sizes of pictures, which go together: either alone changes other passes.
-const SIZES: [(u32, (u32, u32)); 3] = [(256, (320, 180)), (1024, (160, 120)), (128, (640, 360))];
+/// The ground of both, up to its size.
+const GROUND: &str = "\"ground\": (";
+const GROUND_BARE: &str = "\"ground\": (casts: false, ";
+/// What is measured: scenes, parts of the view, sides of maps and sizes of pictures, and which candidates. Every kind of work
+/// must differ from all others in some of them.
+const SETTINGS: &[Setting] = &[
+    Setting { scene: SPOT, bare: false, parts: 1, side: 256, size: (320, 180), which: is_typical },
+    Setting { scene: SPOT, bare: false, parts: 1, side: 1024, size: (160, 120), which: is_typical },
+    Setting { scene: SPOT, bare: false, parts: 1, side: 128, size: (640, 360), which: is_typical },
+    Setting { scene: SPOT, bare: true, parts: 1, side: 128, size: (160, 120), which: is_plain },
+    Setting { scene: SPOT, bare: true, parts: 1, side: 1024, size: (160, 120), which: is_short },
+    Setting { scene: SPOT, bare: true, parts: 1, side: 4096, size: (160, 120), which: is_compared },
+    Setting { scene: SPOT, bare: false, parts: 1, side: 4096, size: (160, 120), which: is_compared },
+    Setting { scene: SUN, bare: false, parts: 2, side: 256, size: (320, 180), which: is_plain },
+    Setting { scene: SUN, bare: true, parts: 2, side: 1024, size: (160, 120), which: is_compared },
+];
+
+struct Setting {
+    scene: &'static str,
+    /// Whether the ground casts no shadow, so that much of a map stays empty.
+    bare: bool,
+    parts: u32,
+    side: u32,
+    size: (u32, u32),
+    which: fn(&Candidate) -> bool,
+}
+
 /// Rounds for each.
 const ROUNDS: Rounds = Rounds { warm_up: 0, counted: 5 };
 /// Exactness of what is only to tell how long footprints are.
-const EFFORT: Effort = Effort { edges: 40, others: 80, rays: 16 };
+const EFFORT: Effort = Effort { edges: 40, near: 40, others: 60, rays: 16 };
 
 /// How many frames a calibration draws at most: for a bar of progress.
 pub const FRAMES: u64 = 720;
@@ -42,7 +67,9 @@ pub fn calibrate(
     mut each: impl FnMut(),
 ) -> Result<CostTable, Failure> {
     let mut measured: Vec<(Work, BTreeMap<Share, f64>)> = Vec::new();
-    for (scene, parts) in [(SPOT, vec![1]), (SUN, vec![2])] {
+    for Setting { scene, bare, parts, side, size, which } in SETTINGS {
+        let (side, size) = (*side, *size);
+        let scene = if *bare { scene.replace(GROUND, GROUND_BARE) } else { (*scene).to_owned() };
         // Made up, and never written.
         let file = PathBuf::from("shadetree calibration").join("scene.ron");
         let texts: BTreeMap<PathBuf, Arc<str>> = [
@@ -58,34 +85,28 @@ pub fn calibrate(
         let (loader, known) = (Loader::with_overlay(texts.clone()), Known::default());
         let stand = Stand::read(&file, None, &Weaver::new(listener, &loader, catalog, &known))?;
         let Some(lamp) = stand.lamps.first() else { continue };
-        for (side, size) in SIZES {
-            if parts[0] > 1 && side > 256 {
-                continue;
-            }
-            let watch = Watch { cancel, done: &|_| {} };
-            let look = stand.look(lamp, size, EFFORT, watch).ok_or_else(Failure::cancelled)?;
-            let demand = Demand {
-                sides: vec![side],
-                parts: parts.clone(),
-                penumbra: [8.0 / f64::from(side); 2],
-                footprint: 4.0 / f64::from(side),
-                soft: true,
-            };
-            let few: Vec<Candidate> =
-                candidates(&demand).into_iter().filter(|c| is_typical(c) && (parts[0] == 1 || is_plain(c))).collect();
-            let site = stand.site(lamp, size);
-            let outlooks = predict(&site, &look.0, few, Metric::Rms, watch).ok_or_else(Failure::cancelled)?;
-            let trier = Trier::new(&stand, catalog, listener, &texts, &[], size);
-            // What a device cannot draw gets no price, and so is never chosen.
-            let output = Output::Visibility(lamp.name.clone());
-            let able = |c: &Candidate, gpu: &mut Gpu| trier.picture(lamp, Some(c), &output, gpu).is_ok();
-            let outlooks: Vec<_> = outlooks.into_iter().filter(|o| able(&o.candidate, gpu)).collect();
-            let all: Vec<Candidate> = outlooks.iter().map(|o| o.candidate.clone()).collect();
-            let laps = trier.raced(lamp, &all, ROUNDS, gpu, cancel, &mut each)?;
-            let load = stand.load(lamp, &look.0, size);
-            for (outlook, laps) in outlooks.iter().zip(laps) {
-                measured.push(told(work(&outlook.candidate, outlook.taps, &load), &laps));
-            }
+        let watch = Watch { cancel, done: &|_| {} };
+        let look = stand.look(lamp, size, EFFORT, watch).ok_or_else(Failure::cancelled)?;
+        let demand = Demand {
+            sides: vec![side],
+            parts: vec![*parts],
+            penumbra: [8.0 / f64::from(side); 2],
+            footprint: 4.0 / f64::from(side),
+            soft: true,
+        };
+        let few: Vec<Candidate> = candidates(&demand).into_iter().filter(|c| is_typical(c) && which(c)).collect();
+        let site = stand.site(lamp, size);
+        let outlooks = predict(&site, &look.0, few, Metric::Rms, watch).ok_or_else(Failure::cancelled)?;
+        let trier = Trier::new(&stand, catalog, listener, &texts, &[], size);
+        // What a device cannot draw gets no price, and so is never chosen.
+        let output = Output::Visibility(lamp.name.clone());
+        let able = |c: &Candidate, gpu: &mut Gpu| trier.picture(lamp, Some(c), &output, gpu).is_ok();
+        let outlooks: Vec<_> = outlooks.into_iter().filter(|o| able(&o.candidate, gpu)).collect();
+        let all: Vec<Candidate> = outlooks.iter().map(|o| o.candidate.clone()).collect();
+        let laps = trier.raced(lamp, &all, ROUNDS, gpu, cancel, &mut each)?;
+        let load = stand.load(lamp, &look.0, size);
+        for (outlook, laps) in outlooks.iter().zip(laps) {
+            measured.push(told(work(&outlook.candidate, outlook.taps, &load), &laps));
         }
     }
     Ok(CostTable::fit(device, &measured))
@@ -109,7 +130,17 @@ fn is_typical(candidate: &Candidate) -> bool {
     judged && filtered
 }
 
-/// Those that say what cutting the view costs.
+/// Those whose maps are made in one pass, of every sort of map.
+fn is_short(candidate: &Candidate) -> bool {
+    matches!(candidate.filter, Some(Filter::Nearest | Filter::Kernel(1)))
+}
+
+/// Those that compare depths, one with few reads and one with many.
+fn is_compared(candidate: &Candidate) -> bool {
+    candidate.judge == Judge::Comparison && matches!(candidate.filter, Some(Filter::Nearest | Filter::Kernel(3)))
+}
+
+/// Those that say what a setting changes for comparisons and for maps of moments.
 fn is_plain(candidate: &Candidate) -> bool {
     matches!(candidate.filter, Some(Filter::Nearest | Filter::Kernel(3)))
         && matches!(candidate.judge, Judge::Comparison | Judge::Variance { storage: Storage::Single, .. })

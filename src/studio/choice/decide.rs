@@ -4,10 +4,11 @@ use std::collections::BTreeMap;
 use std::sync::atomic::AtomicBool;
 
 use super::calibrate::middle;
-use super::stand::{Lamp, Stand, demand};
+use super::order::Trial;
+use super::stand::{Lamp, Stand, demand, finer};
 use super::trial::Trier;
 use crate::choose::{
-    Candidate, CostTable, Decision, Effort, Facts, Metric, Priced, Verdict, Wish, candidates, decisions, holds,
+    Candidate, CostTable, Decision, Demand, Effort, Facts, Metric, Priced, Verdict, Wish, candidates, decisions, holds,
     predict, ranked, unmodelled,
 };
 use crate::diagnostic::{Diagnostic, Place};
@@ -21,8 +22,6 @@ use crate::studio::trial::Rounds;
 
 /// Rays a pixel of the truth that a choice is verified against.
 const RAYS: u32 = 256;
-/// Most candidates that are tried one after the other where the bound does not hold.
-const MOST_TRIED: usize = 12;
 /// Candidates that are measured where that is asked for, and how often.
 const SEARCHED: usize = 16;
 const ROUNDS: Rounds = Rounds { warm_up: 1, counted: 7 };
@@ -101,11 +100,18 @@ pub fn chosen(
     let watch = Watch { cancel: &cancel, done: &|_| {} };
     let cancelled = Failure::cancelled;
     let (receivers, facts) = stand.look(lamp, size, Effort::default(), watch).ok_or_else(cancelled)?;
-    let all = candidates(&demand(lamp, &facts));
+    let asked = demand(lamp, &facts);
     let site = stand.site(lamp, size);
-    let outlooks = predict(&site, &receivers, all, wish.metric, watch).ok_or_else(cancelled)?;
+    let judged = |demand: &Demand| predict(&site, &receivers, candidates(demand), wish.metric, watch);
+    let mut outlooks = judged(&asked).ok_or_else(cancelled)?;
     let load = stand.load(lamp, &receivers, size);
-    let (good, other, unpriced) = ranked(&outlooks, table, &load, wish);
+    let (mut good, mut other, mut unpriced) = ranked(&outlooks, table, &load, wish);
+    if good.is_empty()
+        && let Some(finer) = finer(lamp, &asked)
+    {
+        outlooks.extend(judged(&finer).ok_or_else(cancelled)?);
+        (good, other, unpriced) = ranked(&outlooks, table, &load, wish);
+    }
     let kinds = shadow_kinds(catalog);
     choice.unmodelled = unmodelled(kinds.iter().map(String::as_str)).into_iter().map(str::to_owned).collect();
     (choice.judged, choice.good) = (outlooks.len() - unpriced, good.len());
@@ -138,7 +144,7 @@ pub fn error_of(metrics: &Metrics, metric: Metric) -> f64 {
     }
 }
 
-/// Renders the choice; where the bound does not hold, those that would have come next.
+/// Renders the choice, and what may be cheaper or, where the bound does not hold, better: the cheapest that holds counts.
 pub fn verified(
     mut choice: Choice,
     all: &[Priced],
@@ -155,32 +161,14 @@ pub fn verified(
         choice.verified.push(("no shadow".into(), tried.metrics));
         return Ok(choice);
     };
-    let affordable = |p: &&Priced| wish.budget.is_none_or(|b| p.milliseconds <= b);
-    let mut left: Vec<&Priced> = all.iter().filter(|p| p.outlook.candidate != first.outlook.candidate).collect();
-    left.retain(affordable);
-    let mut best: Option<(Priced, f64)> = None;
-    // By how much what was rendered is worse than expected: the next must be better by as much.
-    let mut worse: f64 = 1.0;
-    let mut next = Some(&first);
-    for _ in 0..MOST_TRIED {
-        let Some(priced) = next else { break };
+    let mut trial = Trial::new(all, &first, wish);
+    while let Some(priced) = trial.next() {
         let tried = trier.tried(lamp, Some(&priced.outlook.candidate), &truth, gpu)?;
-        let error = error_of(&tried.metrics, wish.metric);
         choice.verified.push((priced.outlook.candidate.name(), tried.metrics));
-        if best.as_ref().is_none_or(|(_, least)| error < *least) {
-            best = Some((priced.clone(), error));
-        }
-        if error <= wish.max_error {
-            break;
-        }
-        worse = worse.max(error / priced.outlook.error.max(1e-6));
-        left.retain(|p| p.outlook.candidate != priced.outlook.candidate);
-        let likely = left.iter().filter(|p| p.outlook.error * worse <= wish.max_error);
-        let cheapest = likely.min_by(|a, b| a.milliseconds.total_cmp(&b.milliseconds));
-        next = cheapest.or(left.iter().min_by(|a, b| a.outlook.bound.total_cmp(&b.outlook.bound))).copied();
+        trial.found(&priced, error_of(&tried.metrics, wish.metric));
     }
-    if let Some((priced, error)) = best {
-        let good = error <= wish.max_error && affordable(&&priced);
+    if let Some((priced, error)) = trial.best {
+        let good = error <= wish.max_error && wish.budget.is_none_or(|b| priced.milliseconds <= b);
         // What counts comes last.
         let name = priced.outlook.candidate.name();
         if let Some(at) = choice.verified.iter().position(|(n, _)| *n == name) {

@@ -6,6 +6,7 @@
 mod calibrate;
 mod decide;
 mod graphs;
+mod order;
 mod stand;
 mod table;
 mod trial;

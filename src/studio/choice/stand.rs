@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use crate::choose::{Demand, Effort, Facts, Load, Needless, Receivers, Site, facts, receivers};
+use crate::choose::{Demand, Effort, Facts, Load, Needless, Receivers, Site, covered, facts, receivers};
 use crate::compile::{NamedGraph, Output};
 use crate::diagnostic::{Diagnostic, Place};
 use crate::graph::Graph;
@@ -176,6 +176,7 @@ impl Stand {
             shaded: pixels * receivers.shaded,
             triangles: self.triangles as f64,
             views: u32::try_from(lamp.light.views.len()).unwrap_or(1),
+            covered: parts(lamp).map(|parts| (parts, covered(&self.site(lamp, size), parts))).collect(),
         }
     }
 
@@ -188,10 +189,14 @@ impl Stand {
     }
 }
 
+/// Numbers of parts that a light's view can be cut into.
+fn parts(lamp: &Lamp) -> impl Iterator<Item = u32> {
+    [1, 2, 4].into_iter().filter(|n| *n == 1 || lamp.splits)
+}
+
 /// What a light's statistics ask candidates to be like.
 pub fn demand(lamp: &Lamp, facts: &Facts) -> Demand {
-    let parts =
-        [1, 2, 4].into_iter().filter(|n| *n == 1 || (lamp.splits && *n <= facts.split_demand.next_power_of_two()));
+    let parts = parts(lamp).filter(|n| *n <= facts.split_demand.next_power_of_two());
     // Six maps of the largest side would not fit many devices.
     let most = if lamp.light.views.len() > 1 { 2048 } else { 4096 };
     Demand {
@@ -201,6 +206,14 @@ pub fn demand(lamp: &Lamp, facts: &Facts) -> Demand {
         footprint: facts.footprint,
         soft: !lamp.light.source.is_sharp(),
     }
+}
+
+/// What else can be tried where none of these keeps the error: the largest maps of views that are cut into more parts than
+/// distances ask for, as each part is then fitted to less. None where nothing is left.
+pub(super) fn finer(lamp: &Lamp, asked: &Demand) -> Option<Demand> {
+    let more: Vec<u32> = parts(lamp).filter(|n| !asked.parts.contains(n)).collect();
+    let sides = SIDES[SIDES.len() - 2..].to_vec();
+    (!more.is_empty()).then(|| Demand { sides, parts: more, ..asked.clone() })
 }
 
 /// The one light node of a graph, whose shadows must be nodes of the graph itself.
