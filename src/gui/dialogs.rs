@@ -16,6 +16,7 @@ pub(super) enum Purpose {
     SaveAs,
     Scene,
     Model,
+    Surroundings,
     Figure,
     Subgraph,
     Picture { node: String, port: String },
@@ -28,6 +29,7 @@ impl Purpose {
             Self::SaveAs => "Save as",
             Self::Scene => "Show in a scene",
             Self::Model => "Show on a model",
+            Self::Surroundings => "Show within a picture",
             Self::Figure => "Export figure",
             Self::Subgraph => "Make subgraph",
             Self::Picture { .. } => "Choose a picture",
@@ -43,7 +45,7 @@ impl Purpose {
             Self::Open | Self::SaveAs | Self::Scene | Self::Subgraph => &["ron"],
             Self::Model => &["obj"],
             Self::Figure => &["svg", "png"],
-            Self::Picture { .. } => &["png", "jpg", "jpeg", "hdr"],
+            Self::Picture { .. } | Self::Surroundings => &["hdr", "png", "jpg", "jpeg"],
         }
     }
 }

@@ -123,8 +123,8 @@ impl Feed {
             .collect();
         let show = preview.show_what(shown.key().to_path_buf());
         let key = format!(
-            "{state:?} {show:?} {:?} {:?} {:?} {} {}",
-            preview.look, preview.camera, preview.size, preview.samples, preview.time
+            "{state:?} {show:?} {:?} {:?} {:?} {:?} {} {}",
+            preview.look, preview.around, preview.camera, preview.size, preview.samples, preview.time
         );
         if self.asked.as_ref() == Some(&key) {
             return;
@@ -157,6 +157,7 @@ impl Feed {
             show,
             look,
             camera: preview.camera,
+            environment: preview.around.clone().map(|(_, environment)| environment),
             size: preview.size,
             samples: preview.samples,
             time: preview.time,

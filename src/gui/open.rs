@@ -9,6 +9,7 @@ use super::library::plain;
 use super::tab::Tab;
 use crate::diagnostic::{Diagnostic, SourceText, has_errors};
 use crate::graph::{self, Edit, Graph};
+use crate::scene::{Environment, FileReference};
 use crate::semantic::Value;
 use crate::studio::figure::{self, Form};
 use crate::studio::load::root_name;
@@ -390,6 +391,12 @@ impl Editor {
             Purpose::Model => {
                 self.preview.shape = Shown::Obj(path.to_path_buf());
                 (self.preview.scene, self.preview.camera) = (None, None);
+            }
+            Purpose::Surroundings => {
+                let name = path.file_stem().map_or_else(String::new, |s| s.to_string_lossy().into_owned());
+                let full = std::path::absolute(path).unwrap_or_else(|_| path.to_path_buf());
+                let image = FileReference::new(full.display().to_string());
+                self.preview.around = Some((name, Environment::Image { image, rotation: 0.0, intensity: 1.0 }));
             }
             Purpose::Figure => self.figure(path),
             Purpose::Subgraph => self.make_subgraph(path),

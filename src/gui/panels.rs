@@ -143,6 +143,9 @@ impl Editor {
                 preview::Wish::OpenScene => {
                     self.dialog = Some(Dialog::Path(PathDialog::new(Purpose::Scene, "graphs/scenes/")))
                 }
+                preview::Wish::OpenSurroundings => {
+                    self.dialog = Some(Dialog::Path(PathDialog::new(Purpose::Surroundings, "")));
+                }
                 preview::Wish::OpenModel => self.dialog = Some(Dialog::Path(PathDialog::new(Purpose::Model, ""))),
                 preview::Wish::Abandon => {
                     self.feed.engine.abandon();

@@ -17,7 +17,8 @@ use crate::compile::Output;
 use crate::graph::Edit;
 use crate::node::Catalog;
 use crate::preview::{Image, Look, Show};
-use crate::scene::Camera;
+use crate::scene::environment::Sky;
+use crate::scene::{Camera, Environment};
 use crate::semantic::Value;
 use crate::studio::Shown;
 
@@ -34,6 +35,8 @@ pub(super) struct Preview {
     pub(super) shape: Shown,
     /// The scene that is shown instead of the stage.
     pub(super) scene: Option<PathBuf>,
+    /// What lies around it by wish, with its name; none for what the scene or the stage has.
+    pub(super) around: Option<(String, Environment)>,
     /// Where a person has gone; none where the scene's own camera is.
     pub(super) camera: Option<Camera>,
     pub(super) paused: bool,
@@ -59,6 +62,7 @@ impl Default for Preview {
             look: Look::Output(Output::Radiance),
             shape: Shown::Sphere,
             scene: None,
+            around: None,
             camera: None,
             paused: false,
             coarse: 1.0,
@@ -81,6 +85,8 @@ pub(super) enum Wish {
     OpenScene,
     /// Choose a model to show the graph on.
     OpenModel,
+    /// Choose a picture of surroundings.
+    OpenSurroundings,
     /// Leave the picture that is being made behind.
     Abandon,
 }
@@ -189,6 +195,7 @@ impl Preview {
                     }
                 });
             combo.response.labelled_by(label.id);
+            self.surroundings(ui, wishes);
             let label = ui.label("Scale");
             let combo = egui::ComboBox::from_id_salt("coarse")
                 .selected_text(format!("1/{}", self.coarse))
@@ -209,6 +216,27 @@ impl Preview {
                 self.camera = None;
             }
         });
+    }
+
+    /// What lies around.
+    fn surroundings(&mut self, ui: &mut Ui, wishes: &mut Vec<Wish>) {
+        let label = ui.label("in").on_hover_text("What lies around: it lights, and shows in reflections");
+        let own = "Its own sky";
+        let shown = self.around.as_ref().map_or(own, |(name, _)| name.as_str()).to_owned();
+        let combo = egui::ComboBox::from_id_salt("around").selected_text(&shown).width(96.0).show_ui(ui, |ui| {
+            if ui.selectable_label(self.around.is_none(), own).clicked() {
+                self.around = None;
+            }
+            for (name, environment) in environments() {
+                if ui.selectable_label(shown == name, name).clicked() {
+                    self.around = Some((name.to_owned(), environment));
+                }
+            }
+            if ui.selectable_label(false, "Picture…").clicked() {
+                wishes.push(Wish::OpenSurroundings);
+            }
+        });
+        combo.response.labelled_by(label.id);
     }
 
     /// The ways to look at it: those that depend on a light for each light.
@@ -378,6 +406,24 @@ impl Preview {
             }
         });
     }
+}
+
+/// Surroundings that need no file.
+fn environments() -> [(&'static str, Environment); 4] {
+    let dusk = Sky {
+        zenith: [0.05, 0.07, 0.16],
+        horizon: [0.55, 0.25, 0.12],
+        ground: [0.04, 0.03, 0.03],
+        sun_direction: [0.8, 0.08, -0.6],
+        sun_glow: [3.0, 1.1, 0.3],
+        intensity: 1.0,
+    };
+    [
+        ("Day", Environment::Sky(Sky::default())),
+        ("Dusk", Environment::Sky(dusk)),
+        ("White room", Environment::Color([0.8; 3])),
+        ("Darkness", Environment::Color([0.0; 3])),
+    ]
 }
 
 fn shapes() -> [(&'static str, Shown); 5] {

@@ -8,7 +8,7 @@ use super::{PassTiming, Point, Resolved, Shown};
 use crate::compile::{Compiled, Output};
 use crate::cost::Cost;
 use crate::diagnostic::Diagnostic;
-use crate::scene::Camera;
+use crate::scene::{Camera, Environment};
 
 /// What is to be seen.
 #[derive(Clone, Debug, PartialEq)]
@@ -23,6 +23,8 @@ pub struct Request {
     pub look: Look,
     /// From where; none for the scene's own camera.
     pub camera: Option<Camera>,
+    /// What lies around it; none for what the scene or the stage has. Paths of pictures are whole.
+    pub environment: Option<Environment>,
     /// Columns and rows.
     pub size: (u32, u32),
     /// Samples per pixel: 1 or 4.

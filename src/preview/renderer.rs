@@ -57,7 +57,7 @@ impl Renderer {
         let begun = Instant::now();
         let (request, shot) = (&work.request, &*work.shot);
         let loader = loader(request);
-        let assets = self.stock.assets(shot, &loader)?;
+        let assets = self.stock.assets_in(shot, request.environment.as_ref(), &loader)?;
         let camera = request.camera.unwrap_or_else(|| assets.scene.camera.camera());
         let is_error = matches!(request.look, Look::Error { .. });
         let exposure = Exposure {

@@ -7,6 +7,7 @@ use std::time::{Duration, Instant};
 
 use super::{Answer, Engine, Image, Look, Request, Shaders, Show, Shown};
 use crate::compile::Output;
+use crate::scene::{Environment, FileReference};
 use crate::render::{AdapterOptions, RenderError, adapters};
 
 /// How long an answer may take on a slow machine.
@@ -90,6 +91,7 @@ fn matte(albedo: &str) -> String {
 fn request(revision: u64, text: &str) -> Request {
     let path = PathBuf::from("unsaved/matte.ron");
     Request {
+        environment: None,
         revision,
         overlay: BTreeMap::from([(path.clone(), text.into())]),
         show: Show::Stage { shape: Shown::Sphere, graphs: vec![path] },
@@ -241,6 +243,15 @@ fn a_scene_shows_graphs_as_they_are_edited() {
     let sum = |i: &Image| i.rgba.chunks(4).map(|p| u32::from(p[0])).sum::<u32>();
     assert!(sum(&first) > sum(&second) && sum(&second) > 0, "{} {}", sum(&first), sum(&second));
     assert_eq!(first.pipelines_built, second.pipelines_built);
+
+    let bright = Request { environment: Some(Environment::Color([0.6; 3])), ..asked(5, "(0.2, 0.2, 0.2)") };
+    assert!(sum(&desk.image(&bright)) > sum(&second), "what lies around lights");
+    let missing = FileReference::new("nowhere.hdr");
+    let gone = Environment::Image { image: missing, rotation: 0.0, intensity: 1.0 };
+    desk.engine.ask(Request { environment: Some(gone), ..asked(6, "0.5") });
+    let answers = desk.until(|a| matches!(a, Answer::Failed { .. } | Answer::Image(Image { revision: 6, .. })));
+    let told = |a: &Answer| matches!(a, Answer::Failed { message, .. } if message.contains("nowhere.hdr"));
+    assert!(answers.last().is_some_and(told), "{answers:?}");
 
     let error = desk.image(&Request { look: Look::Error { light: first.lights[0].clone() }, ..asked(3, "0.5") });
     assert!(error.number.as_ref().is_some_and(|(name, x)| name == "RMSE" && *x < 0.3), "{:?}", error.number);

@@ -43,7 +43,20 @@ pub struct Assets {
 impl Stock {
     /// Everything that a shot needs. All that is wrong with any of it is told together.
     pub fn assets(&mut self, shot: &Shot, loader: &Loader) -> Result<Assets, Failure> {
+        self.assets_in(shot, None, loader)
+    }
+
+    /// The same with other surroundings than the shot's own.
+    pub fn assets_in(
+        &mut self,
+        shot: &Shot,
+        environment: Option<&Environment>,
+        loader: &Loader,
+    ) -> Result<Assets, Failure> {
         let mut scene = shot.scene.clone();
+        if let Some(environment) = environment {
+            scene.environment = environment.clone();
+        }
         let mut found: Vec<Diagnostic> = Vec::new();
         let mut kind = FailureKind::Input;
         let mut meshes = Vec::new();
