@@ -1,11 +1,7 @@
 //! What each method makes of the depths under its filter: its closed form in float64, with the rounding of its format.
 
-use glam::DVec2;
-
-use super::filter::{Filter, Seen, disc, read};
-use super::receiver::Receiver;
-use super::texels::{Plane, Texels};
-use crate::reference::{Projection, Source, chebyshev, hamburger, reduce_bleeding, signed_moments};
+use super::filter::Seen;
+use crate::reference::{chebyshev, hamburger, reduce_bleeding, signed_moments};
 
 /// How a texel's numbers are stored.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -105,66 +101,6 @@ pub fn lit(judge: Judge, seen: &Seen) -> f64 {
         }
         Judge::Blockers { .. } => 1.0,
     }
-}
-
-/// Visibility by a search for occluders and a filter as wide as the penumbra that they make (Fernando 2005).
-pub(super) fn searched(
-    (search, filter): (u32, u32),
-    source: &Source,
-    receiver: &Receiver,
-    plane: &Plane,
-    map: &mut Texels<'_>,
-) -> f64 {
-    let side = f64::from(map.side());
-    let perspective = map.looked().view.projection == Projection::Perspective;
-    let half = half_size(source, plane.distance, perspective);
-    let [low, high] = map.looked().view.window;
-    let to_texels = |metres: f64| {
-        let across = if perspective { plane.distance } else { 1.0 };
-        DVec2::splat(metres) / ((high - low) * across) * side
-    };
-    let reach = |occluder: f64| {
-        if perspective {
-            (1.0 / occluder.max(1e-6) - 1.0 / plane.distance.max(1e-6)).max(0.0)
-        } else {
-            (plane.distance - occluder).max(0.0)
-        }
-    };
-    let nearest = map.looked().range.0.max(if perspective { 0.25 * plane.distance } else { f64::NEG_INFINITY });
-    let at = plane.place * side;
-    let wide = to_texels(half * reach(nearest));
-    let (mut total, mut found) = (0.0, 0.0);
-    for place in disc(search, receiver.turn) {
-        let there = at + place * wide;
-        let (column, row) = (there.x.floor() as i64, there.y.floor() as i64);
-        let texel = map.at(column, row);
-        let center =
-            DVec2::new(column as f64 + 0.5, row as f64 + 0.5).clamp(DVec2::splat(0.5), DVec2::splat(side - 0.5));
-        let behind = map.looked().depth(plane.distance_at(center / side));
-        let away = (center - at).length();
-        if texel.depth < behind.clamp(0.0, 1.0) - plane.margin(map.side(), away) {
-            total += texel.distance;
-            found += 1.0;
-        }
-    }
-    if found < 0.5 {
-        return 1.0;
-    }
-    let radius = to_texels(half * reach((total / found).max(nearest))).max_element();
-    let seen =
-        read(Filter::Disc(filter, radius), &Receiver { turn: receiver.turn + 0.5, ..receiver.clone() }, plane, map);
-    lit(Judge::Comparison, &seen)
-}
-
-/// Half the size of what shines: metres at the distance of a receiver in a perspective, tangents in parallel light.
-fn half_size(source: &Source, distance: f64, perspective: bool) -> f64 {
-    let size = match source {
-        Source::Point { .. } => 0.0,
-        Source::Ball { radius, .. } | Source::Disc { radius, .. } => *radius,
-        Source::Rectangle { half, .. } => (half[0].length() * half[1].length()).sqrt(),
-        Source::Distant { angle, .. } => angle.tan(),
-    };
-    size * if perspective { distance } else { 1.0 }
 }
 
 /// The nearest number of 16 bits.

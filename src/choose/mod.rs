@@ -9,6 +9,7 @@
 //! the bound is taken, with its reasons ([`decisions`]). Nothing here reads files or asks a device; the same input gives
 //! the same choice.
 
+mod blockers;
 mod candidate;
 mod cost;
 mod facts;

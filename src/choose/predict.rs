@@ -4,9 +4,10 @@ use std::collections::BTreeMap;
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
+use super::blockers::searched;
 use super::candidate::Candidate;
 use super::filter::{Filter, Seen, read};
-use super::judge::{Judge, lit, searched};
+use super::judge::{Judge, lit};
 use super::receiver::{Receivers, Site, Stratum, looked};
 use super::texels::{Plane, Texels};
 use crate::reference::picture::Watch;
@@ -143,7 +144,7 @@ fn judge(
             let seen = candidate.filter.and_then(|f| filters.iter().position(|g| *g == f)).map(|i| &reads[i]);
             let value = match (candidate.judge, seen) {
                 (Judge::Blockers { search, filter }, _) => {
-                    searched((search, filter), &light.source, receiver, &plane, map)
+                    searched((search, filter), &light.source, receiver.turn, &plane, map)
                 }
                 (closed, Some(seen)) => lit(closed, seen),
                 (_, None) => 1.0,

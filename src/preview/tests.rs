@@ -7,8 +7,8 @@ use std::time::{Duration, Instant};
 
 use super::{Answer, Engine, Image, Look, Request, Shaders, Show, Shown};
 use crate::compile::Output;
-use crate::scene::{Environment, FileReference};
 use crate::render::{AdapterOptions, RenderError, adapters};
+use crate::scene::{Environment, FileReference};
 
 /// How long an answer may take on a slow machine.
 const PATIENCE: Duration = Duration::from_secs(120);
