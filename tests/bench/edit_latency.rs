@@ -77,6 +77,7 @@ fn main() {
             let overlay: BTreeMap<PathBuf, Arc<str>> = BTreeMap::from([(file.clone(), text.into())]);
             let look = Look::Output(Output::Radiance);
             let request = Request {
+                environment: None,
                 revision,
                 overlay,
                 show,

@@ -98,7 +98,8 @@ impl Cards {
 
     fn know(&mut self, graph: &Graph, catalog: &Catalog, subgraphs: Subgraphs<'_>) {
         // Of equal kinds with equal choices the ports are counted once.
-        let mut counted: BTreeMap<(&str, &BTreeMap<String, String>), (usize, Arc<str>)> = BTreeMap::new();
+        type Sort<'a> = (&'a str, &'a BTreeMap<String, String>);
+        let mut counted: BTreeMap<Sort<'_>, (usize, Arc<str>)> = BTreeMap::new();
         self.known.clear();
         for (name, node) in &graph.nodes {
             let plain = node.graph.is_none() && node.wgsl.is_none() && catalog.get(&node.kind).is_some();
