@@ -1,13 +1,12 @@
 //! Where the parts of a node's card lie, in points of the plane. Knows documents and no screen.
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::{BTreeMap, BTreeSet, HashMap};
 use std::sync::Arc;
 
 use eframe::egui::{Pos2, Rect, Vec2, pos2, vec2};
 
 use super::camera::at;
 use crate::graph::{End, Graph};
-use crate::hash::HashMap;
 use crate::node::Catalog;
 use crate::view::{Document, NodeView, PortView, arrange, node_view};
 
