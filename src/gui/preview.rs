@@ -195,6 +195,8 @@ impl Preview {
                     }
                 });
             combo.response.labelled_by(label.id);
+            // Lists do not go on to the next row by themselves.
+            ui.end_row();
             self.surroundings(ui, wishes);
             let label = ui.label("Scale");
             let combo = egui::ComboBox::from_id_salt("coarse")
@@ -221,9 +223,9 @@ impl Preview {
     /// What lies around.
     fn surroundings(&mut self, ui: &mut Ui, wishes: &mut Vec<Wish>) {
         let label = ui.label("in").on_hover_text("What lies around: it lights, and shows in reflections");
-        let own = "Its own sky";
+        let own = "Own sky";
         let shown = self.around.as_ref().map_or(own, |(name, _)| name.as_str()).to_owned();
-        let combo = egui::ComboBox::from_id_salt("around").selected_text(&shown).width(96.0).show_ui(ui, |ui| {
+        let combo = egui::ComboBox::from_id_salt("around").selected_text(&shown).width(70.0).show_ui(ui, |ui| {
             if ui.selectable_label(self.around.is_none(), own).clicked() {
                 self.around = None;
             }
