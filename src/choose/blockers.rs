@@ -69,20 +69,13 @@ pub(super) fn searched(
     let looked = *map.looked();
     let perspective = looked.view.projection == Projection::Perspective;
     let shape = Shape::new(source, plane, map);
-    let reach = |occluder: f64| {
-        if perspective {
-            (1.0 / occluder.max(1e-6) - 1.0 / plane.distance.max(1e-6)).max(0.0)
-        } else {
-            (plane.distance - occluder).max(0.0)
-        }
-    };
     let nearest = looked.range.0.max(if perspective { 0.25 * plane.distance } else { f64::NEG_INFINITY });
     let at = plane.place * side;
     let inside = |place: DVec2| place.clamp(DVec2::splat(0.5), DVec2::splat(side - 0.5));
     let depth_at = |place: DVec2| looked.depth(plane.distance_at(place / side)).clamp(0.0, 1.0);
     let (mut total, mut found) = (0.0, 0.0);
     for place in disc(search, turn) {
-        let center = inside((at + shape.at(place) * reach(nearest)).floor() + 0.5);
+        let center = inside((at + shape.at(place) * plane.reach(nearest)).floor() + 0.5);
         let texel = map.at(center.x.floor() as i64, center.y.floor() as i64);
         if texel.depth < depth_at(center) - plane.margin(map.side(), (center - at).length()) {
             total += texel.distance;
@@ -92,7 +85,7 @@ pub(super) fn searched(
     if found < 0.5 {
         return 1.0;
     }
-    let wide = reach((total / found).max(nearest));
+    let wide = plane.reach((total / found).max(nearest));
     let longest = shape.axes[0].length().max(shape.axes[1].length()) * wide;
     let margin = plane.margin(map.side(), longest * if shape.round { 1.0 } else { std::f64::consts::SQRT_2 } + 1.0);
     // A sampler compares four texels with one depth: that of a texel away, where the plane is nearest to the light.

@@ -8,7 +8,7 @@ use super::predict::cut;
 use super::pyramid::Pyramid;
 use super::receiver::{Receivers, Site, Stratum, looked};
 use super::texels::{Plane, Texels};
-use crate::reference::{Projection, Source, worst_bleeding};
+use crate::reference::{Source, worst_bleeding};
 
 /// Side of the map that is looked at, and width of the filter on it.
 const SIDE: u32 = 256;
@@ -133,7 +133,6 @@ pub fn covered(site: &Site<'_>, parts: u32) -> f64 {
 /// Width of the penumbra at a receiver, in parts of the map's side, where there is an occluder around; similar triangles.
 fn penumbra(source: &Source, turn: f64, plane: &Plane, map: &mut Texels<'_>) -> Option<f64> {
     let view = map.looked().view;
-    let perspective = view.projection == Projection::Perspective;
     let half = match source {
         Source::Point { .. } => 0.0,
         Source::Ball { radius, .. } | Source::Disc { radius, .. } => *radius,
@@ -152,13 +151,8 @@ fn penumbra(source: &Source, turn: f64, plane: &Plane, map: &mut Texels<'_>) -> 
         }
     }
     let occluder: f64 = (count > 0.0).then_some(sum / count)?;
-    let reach = if perspective {
-        (1.0 / occluder.max(1e-6) - 1.0 / plane.distance.max(1e-6)).max(0.0)
-    } else {
-        (plane.distance - occluder).max(0.0)
-    };
     let [low, high] = view.window;
-    Some(2.0 * half * reach / (high - low).max_element().max(1e-12))
+    Some(2.0 * half * plane.reach(occluder) / (high - low).max_element().max(1e-12))
 }
 
 /// The value that a share of the weights is at most at; 0 of nothing.

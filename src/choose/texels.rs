@@ -172,6 +172,16 @@ impl Plane {
         self.slope(side).abs().min(most) / (self.looked.range.1 - self.looked.range.0).max(1e-12)
     }
 
+    /// What an occluder at a distance along the axis makes of the light's half size on the map, by similar triangles: in rays
+    /// per metre of source (perspective) or metres per tangent (parallel). 0 where it lies behind the point.
+    pub fn reach(&self, occluder: f64) -> f64 {
+        let reach = match self.looked.view.projection {
+            Projection::Perspective => 1.0 / occluder.max(1e-6) - 1.0 / self.distance.max(1e-6),
+            Projection::Parallel => self.distance - occluder,
+        };
+        reach.max(0.0)
+    }
+
     /// By how much depth an occluder must be nearer than the plane, for filters that reach so many texels: what rounding
     /// and the facets of curved surfaces ask for.
     pub fn margin(&self, side: u32, texels: f64) -> f64 {

@@ -144,12 +144,3 @@ pub(super) fn draw_cards(painter: &Painter, tab: &Tab, around: &Surroundings<'_>
     below.paint(painter);
     above.paint(painter);
 }
-
-/// Draws small boxes, as on the map of the graph.
-pub(super) fn draw_map(painter: &Painter, boxes: impl Iterator<Item = (Rect, Color32)>) {
-    let mut mesh = Mesh::default();
-    for (rect, color) in boxes {
-        mesh.add_colored_rect(rect, color);
-    }
-    painter.add(Shape::mesh(mesh));
-}

@@ -1,9 +1,8 @@
 //! The small map of all nodes; a click or drag on it goes there.
 
-use eframe::egui::{self, Rect, Sense, Stroke, StrokeKind, Ui, vec2};
+use eframe::egui::{self, Mesh, Rect, Sense, Stroke, StrokeKind, Ui, vec2};
 
 use super::camera::View;
-use super::far;
 use crate::gui::tab::Tab;
 use crate::gui::theme::Look;
 
@@ -20,11 +19,13 @@ pub(super) fn show(ui: &Ui, tab: &mut Tab, view: &View, look: &Look) {
     painter.rect(place, 4.0, look.card.gamma_multiply(0.92), Stroke::new(1.0, look.outline), StrokeKind::Outside);
     let on_map =
         |r: Rect| Rect::from_min_max(place.min + (r.min - all.min) * scale, place.min + (r.max - all.min) * scale);
-    let boxes = tab.cards.lying(&tab.selection).map(|card| {
+    // All boxes are one shape, as there may be thousands.
+    let mut boxes = Mesh::default();
+    for card in tab.cards.lying(&tab.selection) {
         let color = if card.selected { look.selected } else { look.weak };
-        (on_map(card.rect).expand(0.5), color)
-    });
-    far::draw_map(&painter, boxes);
+        boxes.add_colored_rect(on_map(card.rect).expand(0.5), color);
+    }
+    painter.add(boxes);
     painter.rect_stroke(on_map(view.seen()).intersect(place), 0.0, Stroke::new(1.5, look.selected), StrokeKind::Inside);
     let response = ui.interact(place, ui.id().with("minimap"), Sense::click_and_drag());
     response.widget_info(|| egui::WidgetInfo::labeled(egui::WidgetType::Other, true, "Map of the graph"));
